@@ -48,11 +48,10 @@ void sb_nearest_try(SbNearest *nearest, const char *name) {
 }
 
 void sb_nearest_try_list(SbNearest *nearest, const char *names) {
-  char **each = g_strsplit(names, "|", 0);
+  g_auto(GStrv) each = g_strsplit(names, "|", 0);
   for (char **name = each; *name != NULL; name++) {
     sb_nearest_try(nearest, g_intern_string(*name));
   }
-  g_strfreev(each);
 }
 
 char *sb_nearest_hint(const SbNearest *nearest) {

@@ -112,10 +112,9 @@ static char *follow(const char *path) {
     if (to == NULL) {
       return at;
     }
-    char *in = g_path_get_dirname(at);
+    g_autofree char *in = g_path_get_dirname(at);
     g_free(at);
     at = g_path_is_absolute(to) ? g_strdup(to) : g_build_filename(in, to, NULL);
-    g_free(in);
     g_free(to);
   }
   g_free(at);
@@ -222,14 +221,12 @@ static int open_target(char **name, const char *path, bool own_way, GError **err
     if (exists && !own_way && !may_replace(path, &info, error)) {
       return -1;
     }
-    char *target = follow(path);
-    char *folder = target != NULL ? g_path_get_dirname(target) : NULL;
+    g_autofree char *target = follow(path);
+    g_autofree char *folder = target != NULL ? g_path_get_dirname(target) : NULL;
     fd = folder != NULL ? open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC) : -1;
     if (fd >= 0) {
       *name = g_path_get_basename(target);
     }
-    g_free(folder);
-    g_free(target);
   }
   if (fd < 0) {
     fail(error, path, errno);
@@ -263,11 +260,9 @@ bool sb_output_begin_at(SbOutput *out, const char *path, bool own_way, bool swee
     return false;
   }
   if (out->temporary != NULL) {
-    char *target = follow(path);
-    char *in = g_path_get_dirname(target);
+    g_autofree char *target = follow(path);
+    g_autofree char *in = g_path_get_dirname(target);
     out->written_at = g_build_filename(in, out->temporary, NULL);
-    g_free(in);
-    g_free(target);
   } else {
     out->written_at = g_strdup_printf("/proc/self/fd/%d", fd);
   }
@@ -348,9 +343,8 @@ static int rewrite(int old_fd, const struct stat *old, int fd) {
 
 // Gives a file without a name one; an errno.
 static int link_as(const SbOutput *out, const char *name) {
-  char *at = g_strdup_printf("/proc/self/fd/%d", fileno(out->stream));
+  g_autofree char *at = g_strdup_printf("/proc/self/fd/%d", fileno(out->stream));
   int code = linkat(AT_FDCWD, at, out->folder, name, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
-  g_free(at);
   return code;
 }
 
@@ -523,8 +517,8 @@ bool sb_output_check(SbOutputCheck *check, const char *path, bool makes_folder, 
     return fail(error, path, errno);
   }
   // A file is known by its inode, one that is not there yet by its folder and name.
-  char *folder = makes_folder ? nearest_folder(target) : g_path_get_dirname(target);
-  char *whole = g_canonicalize_filename(target, NULL);
+  g_autofree char *folder = makes_folder ? nearest_folder(target) : g_path_get_dirname(target);
+  g_autofree char *whole = g_canonicalize_filename(target, NULL);
   char *identity = NULL;
   int code = try_folder(folder);
   if (code != 0) {
@@ -533,11 +527,10 @@ bool sb_output_check(SbOutputCheck *check, const char *path, bool makes_folder, 
     identity = g_strdup_printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "", (guint64)info.st_dev,
                                (guint64)info.st_ino);
   } else if (stat(folder, &info) == 0) {
-    char *in = g_canonicalize_filename(folder, NULL);
+    g_autofree char *in = g_canonicalize_filename(folder, NULL);
     identity =
         g_strdup_printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "%s", (guint64)info.st_dev,
                         (guint64)info.st_ino, whole + (strcmp(in, "/") == 0 ? 0 : strlen(in)));
-    g_free(in);
   }
   if (check->targets == NULL) {
     check->targets = g_ptr_array_new_with_free_func(g_free);
@@ -549,8 +542,6 @@ bool sb_output_check(SbOutputCheck *check, const char *path, bool makes_folder, 
   if (identity != NULL) {
     g_ptr_array_add(check->targets, identity);
   }
-  g_free(whole);
-  g_free(folder);
   g_free(target);
   return good;
 }

@@ -121,9 +121,8 @@ bool sb_output_folder_open(SbOutputFolder **out, const char *path, const char *c
 
 bool sb_output_folder_add(FILE **stream, SbOutputFolder *folder, const char *name, GError **error) {
   SbOutput file;
-  char *path = g_build_filename(folder->path, name, NULL);
+  g_autofree char *path = g_build_filename(folder->path, name, NULL);
   bool good = sb_output_begin_at(&file, path, false, false, error);
-  g_free(path);
   if (good) {
     g_array_append_val(folder->pending, file);
     *stream = file.stream;
@@ -187,13 +186,12 @@ static bool remove_former(const SbOutputFolder *folder, const char *name, const 
     return errno == ENOENT;
   }
   struct stat info;
-  char *hash = fstat(fd, &info) == 0 && S_ISREG(info.st_mode) ? hash_of(fd) : NULL;
+  g_autofree char *hash = fstat(fd, &info) == 0 && S_ISREG(info.st_mode) ? hash_of(fd) : NULL;
   close(fd);
   bool ours = false;
   for (guint i = 0; i < hashes->len && hash != NULL; i++) {
     ours |= strcmp(hashes->pdata[i], hash) == 0;
   }
-  g_free(hash);
   return ours && unlinkat(folder->descriptor, name, 0) == 0;
 }
 
@@ -206,7 +204,7 @@ bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **e
       sb_output_keeps_existing()) {
     return true;
   }
-  GPtrArray *lines = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GPtrArray) lines = g_ptr_array_new_with_free_func(g_free);
   GHashTableIter at;
   gpointer name;
   gpointer value;
@@ -222,7 +220,7 @@ bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **e
     g_ptr_array_add(lines, g_strconcat(name, "\n", value, NULL));
   }
   g_ptr_array_sort(lines, by_text);
-  GString *text = g_string_new(NULL);
+  g_autoptr(GString) text = g_string_new(NULL);
   for (guint i = 0; i < lines->len; i++) {
     char *line = lines->pdata[i];
     char *hash = strchr(line, '\n');
@@ -232,16 +230,13 @@ bool sb_output_folder_finish(SbOutputFolder *folder, GPtrArray *kept, GError **e
   if (kept != NULL) {
     g_ptr_array_sort(kept, by_text);
   }
-  char *path = g_build_filename(folder->path, folder->manifest, NULL);
+  g_autofree char *path = g_build_filename(folder->path, folder->manifest, NULL);
   SbOutput file;
   bool good = sb_output_begin_at(&file, path, true, false, error);
   if (good) {
     fwrite(text->str, 1, text->len, file.stream);
     good = sb_output_commit(&file, error);
   }
-  g_free(path);
-  g_string_free(text, TRUE);
-  g_ptr_array_unref(lines);
   return good;
 }
 

@@ -24,9 +24,8 @@ bool sb_reader_reads_pipes(void) {
 
 static void add_too_large(GPtrArray *issues, const char *shown, size_t bytes_max, double bytes) {
   const double mebibyte = 1 << 20;
-  char *allowed = g_strdup_printf("at most %.0f MiB", (double)bytes_max / mebibyte);
+  g_autofree char *allowed = g_strdup_printf("at most %.0f MiB", (double)bytes_max / mebibyte);
   sb_issues_add(issues, shown, 0, NULL, allowed, "is too large (%.1f MiB)", bytes / mebibyte);
-  g_free(allowed);
 }
 
 static char *add_errno(GPtrArray *issues, const char *shown) {
@@ -186,16 +185,14 @@ GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GP
     } else if (group == NULL) {
       sb_issues_add(issues, shown, number, NULL, NULL, "a key is before the first [group]");
     } else {
-      char *name = g_strchomp(g_strndup(line, (size_t)(equal - line)));
-      char *key = g_strdup_printf("%s.%s", group, name);
+      g_autofree char *name = g_strchomp(g_strndup(line, (size_t)(equal - line)));
+      g_autofree char *key = g_strdup_printf("%s.%s", group, name);
       if (!g_hash_table_add(seen, g_strdup(key))) {
         sb_issues_add(issues, shown, number, key, NULL, "is given twice (again on line %d)",
                       number);
       } else {
         add_entry(entries, group, name, g_strchug(equal + 1), number);
       }
-      g_free(key);
-      g_free(name);
     }
     g_free(line);
   }

@@ -62,12 +62,11 @@ char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding en
   if (encoding != SB_TEXT_TABLE_LATIN1) {
     return sb_printable(text, length);
   }
-  GString *out = g_string_sized_new(length);
+  g_autoptr(GString) out = g_string_sized_new(length);
   for (size_t i = 0; i < length; i++) {
     g_string_append_unichar(out, (guchar)text[i]);
   }
   char *printable = sb_printable(out->str, out->len);
-  g_string_free(out, TRUE);
   return printable;
 }
 

@@ -114,7 +114,7 @@ static Scale find_scale(const char *unit, const char *si) {
     return (Scale){SCALE_OK, 1, 0};
   }
   static GHashTable *remembered = NULL;
-  char *pair = g_strdup_printf("%s|%s", unit, si);
+  g_autofree char *pair = g_strdup_printf("%s|%s", unit, si);
   pthread_mutex_lock(&lock);
   if (remembered == NULL) {
     remembered = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
@@ -142,7 +142,6 @@ static Scale find_scale(const char *unit, const char *si) {
     }
   }
   pthread_mutex_unlock(&lock);
-  g_free(pair);
   return scale;
 }
 
@@ -173,9 +172,8 @@ static double read_decimal(const char *text, size_t exponent_at, size_t length, 
     exponent = strtol(text + exponent_at + 1, NULL, 10);
   }
   exponent = CLAMP(exponent, -100000, 100000) + power;
-  char *moved = g_strdup_printf("%.*se%ld", (int)exponent_at, text, exponent);
+  g_autofree char *moved = g_strdup_printf("%.*se%ld", (int)exponent_at, text, exponent);
   double value = g_ascii_strtod(moved, NULL);
-  g_free(moved);
   return value;
 }
 
@@ -183,77 +181,75 @@ static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
 static bool fail(GError **error, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  char *raw = g_strdup_vprintf(format, arguments);
+  g_autofree char *raw = g_strdup_vprintf(format, arguments);
   va_end(arguments);
-  char *text = sb_printable(raw, strlen(raw));
+  g_autofree char *text = sb_printable(raw, strlen(raw));
   g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, text);
-  g_free(text);
-  g_free(raw);
   return false;
+}
+
+// Fails for a text that does not begin with a number; `copy` is stripped.
+static bool fail_number(GError **error, const char *copy, bool plain, const char *shown) {
+  const char *word = copy + (*copy == '-' || *copy == '+');
+  if (*copy == '\0') {
+    return fail(error, "no value");
+  }
+  if (g_ascii_strncasecmp(word, "nan", 3) == 0 || g_ascii_strncasecmp(word, "inf", 3) == 0) {
+    return fail(error, "\"%s\" is not a finite number", copy);
+  }
+  return fail(error, "\"%s\" is not a number%s%s", copy, plain ? "" : " with a unit such as ",
+              plain ? "" : shown);
+}
+
+// Finds the scale of a unit in `si`; false with a sentence.
+static bool take_scale(Scale *scale, const char *unit, const char *si, const char *shown,
+                       GError **error) {
+  // "2.8/GPa" for "2.8 1/GPa".
+  g_autofree char *reciprocal = *unit == '/' ? g_strconcat("1", unit, NULL) : NULL;
+  *scale = find_scale(reciprocal != NULL ? reciprocal : unit, si);
+  if (scale->status == SCALE_NO_DATABASE) {
+    return fail(error, "the units database of udunits-2 is missing");
+  }
+  if (scale->status == SCALE_OK && scale->zero != 0 && !sb_quantity_is_point(shown)) {
+    return fail(error, "\"%s\" is a point of a scale, this is a difference, expected K", unit);
+  }
+  const char *what = scale->status == SCALE_UNKNOWN ? "is not a unit" : "is a unit of another kind";
+  if (scale->status != SCALE_OK && strcmp(si, "1") == 0) {
+    return fail(error, "\"%s\" %s: this value has none", unit, what);
+  }
+  return scale->status == SCALE_OK ||
+         fail(error, "\"%s\" %s, expected %s or another unit of that kind", unit, what, shown);
 }
 
 bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                        GError **error) {
-  bool plain = strcmp(si, "1") == 0;
+  const bool plain = strcmp(si, "1") == 0;
   if (strlen(text) > SB_NUMBER_LENGTH_MAX) {
     return fail(error, "\"%.20s...\" is too long for a value", text);
   }
-  char *copy = g_strstrip(g_strdup(text));
-  bool good = false;
+  g_autofree char *copy = g_strstrip(g_strdup(text));
   size_t exponent_at = 0;
-  size_t length = sb_number_scan(copy, &exponent_at);
+  const size_t length = sb_number_scan(copy, &exponent_at);
   if (length == 0) {
-    const char *word = copy + (*copy == '-' || *copy == '+');
-    bool infinite =
-        g_ascii_strncasecmp(word, "nan", 3) == 0 || g_ascii_strncasecmp(word, "inf", 3) == 0;
-    if (*copy == '\0') {
-      fail(error, "no value");
-    } else if (infinite) {
-      fail(error, "\"%s\" is not a finite number", copy);
-    } else {
-      fail(error, "\"%s\" is not a number%s%s", copy, plain ? "" : " with a unit such as ",
-           plain ? "" : shown);
-    }
-    goto done;
+    return fail_number(error, copy, plain, shown);
   }
-  char *unit = copy + length;
+  const char *unit = copy + length;
   while (g_ascii_isspace(*unit)) {
     unit++;
   }
   if (*unit == ',' && g_ascii_isdigit(unit[1])) {
-    fail(error, "\"%s\" has a decimal comma, write a point", copy);
-    goto done;
+    return fail(error, "\"%s\" has a decimal comma, write a point", copy);
   }
   if (strpbrk(unit, "#") != NULL) {
-    fail(error, "\"%s\": a comment must be on a line of its own", copy);
-    goto done;
+    return fail(error, "\"%s\": a comment must be on a line of its own", copy);
   }
   if (*unit == '\0' && !plain) {
-    fail(error, "\"%.*s\" has no unit, write for example \"%.*s %s\"", (int)length, copy,
-         (int)length, copy, shown);
-    goto done;
+    return fail(error, "\"%.*s\" has no unit, write for example \"%.*s %s\"", (int)length, copy,
+                (int)length, copy, shown);
   }
-  // "2.8/GPa" for "2.8 1/GPa".
-  char *reciprocal = *unit == '/' ? g_strconcat("1", unit, NULL) : NULL;
-  Scale scale = find_scale(reciprocal != NULL ? reciprocal : unit, si);
-  g_free(reciprocal);
-  if (scale.status == SCALE_NO_DATABASE) {
-    fail(error, "the units database of udunits-2 is missing");
-    goto done;
-  }
-  if (scale.status == SCALE_OK && scale.zero != 0 && !sb_quantity_is_point(shown)) {
-    fail(error, "\"%s\" is a point of a scale, this is a difference, expected K", unit);
-    goto done;
-  }
-  if (scale.status != SCALE_OK) {
-    const char *what =
-        scale.status == SCALE_UNKNOWN ? "is not a unit" : "is a unit of another kind";
-    if (plain) {
-      fail(error, "\"%s\" %s: this value has none", unit, what);
-    } else {
-      fail(error, "\"%s\" %s, expected %s or another unit of that kind", unit, what, shown);
-    }
-    goto done;
+  Scale scale;
+  if (!take_scale(&scale, unit, si, shown, error)) {
+    return false;
   }
   int power = 0;
   double value = is_power_of_ten(scale, &power)
@@ -268,14 +264,10 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     }
   }
   if (!isfinite(value)) {
-    fail(error, "\"%s\" is not a finite number", copy);
-    goto done;
+    return fail(error, "\"%s\" is not a finite number", copy);
   }
   *out = value;
-  good = true;
-done:
-  g_free(copy);
-  return good;
+  return true;
 }
 
 double sb_quantity_to_shown(double value, const char *si, const char *shown) {
@@ -419,10 +411,9 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
     return parse_flags(out, param, text, error);
   }
   if (param->kind == SB_PARAM_CHOICE) {
-    char *name = g_strstrip(g_strdup(text));
+    g_autofree char *name = g_strstrip(g_strdup(text));
     int index = sb_param_choice(param, name, strlen(name));
     bool good = index >= 0 || fail_name(error, param, name);
-    g_free(name);
     if (good) {
       *out = index;
     }

@@ -203,7 +203,7 @@ static bool print_edges(int face) {
   int of[2] = {2, face};
   gmshModelGetBoundary(of, 2, &edges, &count, 0, 0, 0, &ierr);
   bool good = ierr == 0;
-  GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   for (size_t i = 0; good && i + 1 < count; i += 2) {
     Edge edge = {.tag = edges[i + 1]};
     double *low = NULL, *high = NULL;
@@ -230,7 +230,6 @@ static bool print_edges(int face) {
     const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
     fprintf(out, "piece %.17g %.17g %.17g %.17g %.17g\n", p->x0, p->y0, p->x1, p->y1, p->bulge);
   }
-  g_array_unref(pieces);
   gmshFree(edges);
   return good;
 }

@@ -266,9 +266,8 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
                       const char *name, GError **error) {
   *out = (SbStl){0};
   double scale;
-  char *one = g_strdup_printf("1 %s", unit);
+  g_autofree char *one = g_strdup_printf("1 %s", unit);
   gboolean known = sb_quantity_parse(&scale, one, "m", "mm", error);
-  g_free(one);
   if (!known) {
     return FALSE;
   }
@@ -317,19 +316,16 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
 
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error) {
   *out = (SbStl){0};
-  GPtrArray *issues = sb_issues_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
   gsize length = 0;
-  char *data = sb_reader_load(&length, path, path, length_max, issues);
+  g_autofree char *data = sb_reader_load(&length, path, path, length_max, issues);
   gboolean ok = FALSE;
   if (data != NULL) {
     ok = sb_stl_parse(out, data, length, unit, path, error);
   } else {
-    char *line = sb_issue_line(issues->pdata[0]);
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
     g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
-    g_free(line);
   }
-  g_ptr_array_unref(issues);
-  g_free(data);
   return ok;
 }
 

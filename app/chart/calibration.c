@@ -52,13 +52,12 @@ static void loop_line(Draw *d, const SbScale *x, const SbScale *y, const SbLoop 
   sb_canvas_pen(c, after ? SB_LINE_SEAL : SB_LINE_PINNED, after ? NULL : &sb_dash_reference);
   sb_canvas_color(c, sb_canvas_role(c, after ? SB_ROLE_INNER : SB_ROLE_PINNED), 1);
   for (int way = 0; way < 2; way++) {
-    SbPoint *p = g_new(SbPoint, loop->count[way] + 1);
+    g_autofree SbPoint *p = g_new(SbPoint, loop->count[way] + 1);
     for (size_t i = 0; i < loop->count[way]; i++) {
       p[i] = (SbPoint){sb_axis_at(x, 1e3 * loop->displacement[way][i]),
                        sb_axis_at(y, loop->force[way][i])};
     }
     sb_canvas_polyline(c, p, loop->count[way]);
-    g_free(p);
   }
 }
 

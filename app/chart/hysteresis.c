@@ -253,7 +253,7 @@ static void draw_predicted(SbHysteresisView *v, SbRect rect) {
   const SbChartCurve *curve = &v->data->predicted->loop;
   SbCanvas *c = &v->canvas;
   const size_t n = curve->count;
-  SbPoint *p = g_new(SbPoint, n);
+  g_autofree SbPoint *p = g_new(SbPoint, n);
   for (size_t i = 0; i < n; i++) {
     p[i] = sb_hysteresis_pixel(&v->at, curve->displacement[i], curve->force[i]);
   }
@@ -263,7 +263,6 @@ static void draw_predicted(SbHysteresisView *v, SbRect rect) {
   // Named on the line of the axis' name, where nothing else stands.
   const SbRect in = inner_rect(rect, v->flags);
   sb_canvas_predicted(c, in.x + in.width, in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64));
-  g_free(p);
 }
 
 // The run itself: interior, future, played part.
@@ -291,21 +290,19 @@ static void draw_loop(SbHysteresisView *v) {
   }
 
   size_t future;
-  SbPoint *rest = trace_pixels(&v->at, run, now, run->count - 1, &future);
+  g_autofree SbPoint *rest = trace_pixels(&v->at, run, now, run->count - 1, &future);
   if (rest && future > 1) {
     sb_canvas_pen(c, SB_LINE_FUTURE, NULL);
     sb_canvas_color(c, ink, SB_OPACITY_FUTURE);
     sb_canvas_polyline(c, rest, future);
   }
-  g_free(rest);
   size_t played;
-  SbPoint *past = trace_pixels(&v->at, run, 0, now, &played);
+  g_autofree SbPoint *past = trace_pixels(&v->at, run, 0, now, &played);
   if (past && played > 1) {
     sb_canvas_pen(c, SB_LINE_ACTIVE, NULL);
     sb_canvas_color(c, ink, 1);
     sb_canvas_polyline(c, past, played);
   }
-  g_free(past);
   g_free(all);
 }
 

@@ -42,10 +42,9 @@ static void fill(SbStudy *study, const SbChartRun *run) {
 }
 
 void sb_life_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data) {
-  SbStudy *study = g_new0(SbStudy, 1);
+  g_autofree SbStudy *study = g_new0(SbStudy, 1);
   if (data->run.life_count > 0) {
     fill(study, &data->run);
     sb_study_draw(cr, rect, theme, study);
   }
-  g_free(study);
 }

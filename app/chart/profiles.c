@@ -161,7 +161,7 @@ static void seal_figure(char *out, const Small *s, const char *name, double valu
 // The asperities' share of the pressure: a dashed line under the curve, named once.
 static void asperity_share(Small *s, const SbContactCurve *curve, double left, double right) {
   SbCanvas *c = s->canvas;
-  SbPoint *p = g_new(SbPoint, curve->count + 1);
+  g_autofree SbPoint *p = g_new(SbPoint, curve->count + 1);
   size_t n = 0, top = 0;
   for (size_t i = 0; i < curve->count; i++) {
     if (curve->x[i] >= left && curve->x[i] <= right) {
@@ -186,7 +186,6 @@ static void asperity_share(Small *s, const SbContactCurve *curve, double left, d
                               {p[n - 1].x + 8, p[top].y, SB_LEFT}};
     small_label(s, _("asperities"), &style, places + !low, 3);
   }
-  g_free(p);
 }
 
 // Ground of the fluid on one side of the contact, up to its pressure.
@@ -361,7 +360,7 @@ static void pressure_chart(Small *s) {
   fluid_ground(s, right, far, sb_seal_step_right(seal));
 
   size_t n = 0;
-  SbPoint *p = pressure_points(s, &curve, left, right, &n);
+  g_autofree SbPoint *p = pressure_points(s, &curve, left, right, &n);
   double peak = 0, peak_x = 0.5 * (left + right);
   for (size_t i = 0; i < curve.count; i++) {
     if (curve.x[i] > left && curve.x[i] < right && curve.pressure[i] > peak) {
@@ -380,7 +379,6 @@ static void pressure_chart(Small *s) {
   sb_canvas_color(c, s->color, 1);
   sb_canvas_polyline(c, p, n);
   sb_labels_avoid(s->labels, p, n, 1);
-  g_free(p);
 
   // Peak, width, fluid.
   char value[SB_FORMAT_MAX], text[96];
@@ -508,7 +506,7 @@ static void film_chart(Small *s) {
   if (slides) {
     sb_contact_curve_init(&curve, &s->data->run, s->seal, s->index);
     size_t n = 0;
-    SbPoint *p = film_points(s, &curve, seal, &n);
+    g_autofree SbPoint *p = film_points(s, &curve, seal, &n);
     cairo_save(cr);
     cairo_rectangle(cr, left_px, s->plot.y, s->plot.width, s->plot.height);
     cairo_clip(cr);
@@ -517,7 +515,6 @@ static void film_chart(Small *s) {
     sb_canvas_polyline(c, p, n);
     cairo_restore(cr);
     sb_labels_avoid(s->labels, p, n, 1);
-    g_free(p);
 
     // Central and least film above the flat.
     double x = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));

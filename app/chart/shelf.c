@@ -123,7 +123,7 @@ void sb_shelf_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChart
   if (summary == NULL || summary->shelf.points == 0) {
     return;
   }
-  SbStudy *study = g_new0(SbStudy, 1);
+  g_autofree SbStudy *study = g_new0(SbStudy, 1);
   study->x = (SbStudyAxis){"time on the shelf", "s", "month", false};
   fill_losses(study, &summary->shelf);
   fill_rest(study, &summary->shelf);
@@ -131,5 +131,4 @@ void sb_shelf_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChart
   fill_notes(study, summary);
   study->complete = true;
   sb_study_draw(cr, rect, theme, study);
-  g_free(study);
 }

@@ -89,7 +89,7 @@ static void draw_curve(View *v, bool whole) {
   size_t limit = MIN(run->count, sb_trace_frames(run->trace));
   size_t frame = MIN(v->data->playhead, limit - 1);
   size_t split = now ? MIN(sb_trace_find(run->trace, frame), n - 1) : n - 1;
-  SbPoint *q = g_new(SbPoint, n + 1);
+  g_autofree SbPoint *q = g_new(SbPoint, n + 1);
   for (size_t i = 0; i < n; i++) {
     q[i] = at(v, p[i].time, p[i].force);
   }
@@ -105,7 +105,6 @@ static void draw_curve(View *v, bool whole) {
   sb_canvas_pen(c, v->plot.width > 600 ? 1.8 : 1.4, NULL);
   sb_canvas_color(c, ink, 1);
   sb_canvas_polyline(c, q, now ? split + 2 : n);
-  g_free(q);
 }
 
 // A dashed level over the part of the record that it is the mean of.

@@ -497,11 +497,10 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   double pad = narrow ? 12 : SB_GRID_PADDING;
   const char *quantity = sb_translation(panel->y.quantity);
   const char *rest = *quantity != '\0' ? g_utf8_next_char(quantity) : quantity;
-  char *first = g_utf8_strup(quantity, rest - quantity);
+  g_autofree char *first = g_utf8_strup(quantity, rest - quantity);
   g_autofree char *text =
       g_strdup_printf("%s%s%s%s%s", first, rest, panel->y.unit[0] ? " / " : "", panel->y.unit,
                       panel->y.logarithmic ? _(", log scale") : "");
-  g_free(first);
   if (sb_canvas_text_width(c, text, &title) > rect.width - 2 * pad) {
     title = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
   }

@@ -110,7 +110,7 @@ static void draw_displacement(View *v) {
   size_t limit = MIN(run->count, sb_trace_frames(run->trace));
   size_t now = v->whole ? limit - 1 : MIN(v->data->playhead, limit - 1);
   size_t split = MIN(sb_trace_find(run->trace, now), n - 1);
-  SbPoint *q = g_new(SbPoint, n + 1);
+  g_autofree SbPoint *q = g_new(SbPoint, n + 1);
   for (size_t i = 0; i < n; i++) {
     q[i] = (SbPoint){sb_axis_at(&v->x, p[i].time), sb_axis_at(&v->s, p[i].displacement)};
   }
@@ -123,7 +123,6 @@ static void draw_displacement(View *v) {
   sb_canvas_pen(c, 2.4, NULL);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
   sb_canvas_polyline(c, q, split + 2);
-  g_free(q);
 }
 
 static void draw_events(View *v) {

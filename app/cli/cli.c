@@ -199,7 +199,7 @@ static void put_file(SbJson *json) {
 }
 
 static void print_line(const char *text) {
-  char *printable = sb_printable(text, strlen(text));
+  g_autofree char *printable = sb_printable(text, strlen(text));
   if (common.progress == PROGRESS_JSON) {
     SbJson json;
     sb_json_init(&json);
@@ -216,7 +216,6 @@ static void print_line(const char *text) {
     g_autofree char *wrapped = sb_wrap_line(line, sb_wrap_columns(STDERR_FILENO));
     fprintf(stderr, "%s\n", wrapped);
   }
-  g_free(printable);
 }
 
 void sb_cli_note(const char *format, ...) {
@@ -232,10 +231,9 @@ void sb_cli_note(const char *format, ...) {
 int sb_cli_fail(const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
-  char *text = g_strdup_vprintf(format, arguments);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
   va_end(arguments);
   print_line(text);
-  g_free(text);
   return SB_EXIT_INPUT;
 }
 
@@ -280,12 +278,10 @@ int sb_cli_status(SbStatus status, const SbReport *report) {
   const char *text = report->text[0] != '\0' ? report->text : sb_status_text(status);
   const int id = sb_input_parameter(report->input);
   if (id >= 0) {
-    char *range = sb_param_range((SbParamId)id);
-    GPtrArray *issues = sb_issues_new();
+    g_autofree char *range = sb_param_range((SbParamId)id);
+    g_autoptr(GPtrArray) issues = sb_issues_new();
     sb_issues_add(issues, NULL, 0, sb_input_key(report->input), range, "%s", text);
     sb_cli_issues(issues);
-    g_ptr_array_unref(issues);
-    g_free(range);
   } else {
     print_line(text);
   }
@@ -304,9 +300,8 @@ int sb_cli_status(SbStatus status, const SbReport *report) {
 
 void sb_cli_issues(const GPtrArray *issues) {
   for (guint i = 0; i < issues->len; i++) {
-    char *line = sb_issue_line(issues->pdata[i]);
+    g_autofree char *line = sb_issue_line(issues->pdata[i]);
     print_line(line);
-    g_free(line);
   }
 }
 
@@ -385,7 +380,7 @@ char *sb_cli_full_path(const char *operand, unsigned kinds) {
 }
 
 SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
-  GPtrArray *issues = sb_issues_new();
+  g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
   SbDocument *document = sb_document_load(file, issues);
   if (document == NULL) {
@@ -405,7 +400,6 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
     sb_document_free(document);
     document = NULL;
   }
-  g_ptr_array_unref(issues);
   const GPtrArray *notes = document != NULL && !sb_cli_quiet() ? sb_document_notes(document) : NULL;
   for (guint i = 0; notes != NULL && i < notes->len; i++) {
     g_autofree char *note = g_strconcat("note: ", notes->pdata[i], NULL);
@@ -608,7 +602,7 @@ static void print_bar(SbProgress *progress, int percent, double left_s) {
     i++;
   }
   const int cells = MIN(CELLS_MAX, room - sb_wrap_width(texts[i]) - 3);
-  GString *line = g_string_new(NULL);
+  g_autoptr(GString) line = g_string_new(NULL);
   if (cells >= CELLS_LEAST) {
     g_string_append_c(line, '[');
     for (int k = 0; k < cells; k++) {
@@ -621,7 +615,6 @@ static void print_bar(SbProgress *progress, int percent, double left_s) {
   // Blanks replace what is left of a longer line before.
   fprintf(stderr, "\r%s%*s", line->str, MAX(MIN(progress->width, room) - width, 0), "");
   progress->width = MAX(width, 0);
-  g_string_free(line, TRUE);
 }
 
 void sb_progress_update(SbProgress *progress, double fraction) {

@@ -341,11 +341,9 @@ static int render_film(const SbRun *run, Request *request, const char *output) {
 // "piston.valve . thesis-cycle.scene", for the line below the title. Owned by the caller.
 static char *file_names(const SbDocument *document) {
   const char *path = sb_document_path(document), *valve_path = sb_document_valve_path(document);
-  char *own = path != NULL ? g_path_get_basename(path) : g_strdup("");
-  char *valve = valve_path != NULL ? g_path_get_basename(valve_path) : NULL;
+  g_autofree char *own = path != NULL ? g_path_get_basename(path) : g_strdup("");
+  g_autofree char *valve = valve_path != NULL ? g_path_get_basename(valve_path) : NULL;
   char *names = valve != NULL ? g_strdup_printf("%s  \xc2\xb7  %s", valve, own) : g_strdup(own);
-  g_free(valve);
-  g_free(own);
   return names;
 }
 
@@ -370,7 +368,7 @@ static bool make_folder(const Request *request, const char *output, GError **err
 static int render_study(const Request *request, SbDocument *document, const SbModel *model,
                         const char *output) {
   const SbRenderOptions *options = &request->how;
-  SbStudy *study = g_new(SbStudy, 1);
+  g_autofree SbStudy *study = g_new(SbStudy, 1);
   int code = sb_cli_study(study, request->study, model);
   if (code == SB_EXIT_DONE || code == SB_EXIT_NOT_CONVERGED) {
     g_autofree char *sha256 = sb_document_sha256(document);
@@ -390,7 +388,6 @@ static int render_study(const Request *request, SbDocument *document, const SbMo
       code = sb_cli_error(error);
     }
   }
-  g_free(study);
   return code;
 }
 
@@ -412,7 +409,7 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
   style.zoom = request->zoom;
   style.cutaway = style.cutaway || sb_render_view(request->how.view)->cutaway;
   sb_section_painter_style(painter, &style);
-  char *sha256 = sb_document_sha256(document);
+  g_autofree char *sha256 = sb_document_sha256(document);
   char *scene = sb_document_to_flat_text(document);
   char *subtitle = file_names(document);
   SbRenderOptions *how = &request->how;
@@ -440,7 +437,6 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
     code = sb_cli_error(error);
   }
   sb_section_painter_destroy(painter);
-  g_free(sha256);
   g_free(subtitle);
   g_free(scene);
   return code;

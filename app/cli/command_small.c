@@ -23,8 +23,8 @@ static void list_params(void) {
     if (param->parent >= 0) {
       continue;
     }
-    char *value = sb_param_format((SbParamId)i, param->fallback);
-    char *range = sb_param_range((SbParamId)i);
+    g_autofree char *value = sb_param_format((SbParamId)i, param->fallback);
+    g_autofree char *range = sb_param_range((SbParamId)i);
     printf("%-32s %s\n", param->key, param->help);
     printf("    %s (allowed %s; %s: %s)\n", *value != '\0' ? value : "none", range, param->tag,
            param->source);
@@ -38,8 +38,6 @@ static void list_params(void) {
       printf("    %s with %s = %s (%s: %s)\n", other, giver->key, name, derived.tag,
              derived.source);
     }
-    g_free(value);
-    g_free(range);
   }
   for (const SbTextKey *text = sb_document_text_keys(); text->key != NULL; text++) {
     printf("%-32s %s\n    none (a text)\n", text->key, text->help);
@@ -51,9 +49,8 @@ static void list_models(void) {
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
     if (sb_param_group((SbParamId)i) == SB_PARAMS_MODELS) {
-      char *range = sb_param_range((SbParamId)i);
+      g_autofree char *range = sb_param_range((SbParamId)i);
       printf("%-16s %s\n", param->key, range);
-      g_free(range);
     }
   }
   printf("Of the command film (--model)\n");
@@ -238,9 +235,8 @@ int sb_command_asperity(int argc, char **argv) {
     SbStatus status = sb_gt_integrals(&integrals, lambda, &report);
     code = sb_cli_status(status, &report);
     if (status == SB_OK && target != NULL) {
-      char *json = asperity_json(&integrals);
+      g_autofree char *json = asperity_json(&integrals);
       code = sb_cli_emit(json, target);
-      g_free(json);
     } else if (status == SB_OK && !sb_cli_quiet()) {
       char digits[SB_NUMBER_SIZE];
       sb_cli_line("lambda", sb_number_format(digits, integrals.lambda));
@@ -265,16 +261,14 @@ int sb_command_open(int argc, char **argv) {
   char self[PATH_MAX];
   ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
   self[MAX(length, 0)] = '\0';
-  char *folder = g_path_get_dirname(self);
+  g_autofree char *folder = g_path_get_dirname(self);
   char *arguments[] = {(char *)"sealbench-gtk", argc > 1 ? argv[1] : NULL, NULL};
   for (size_t i = 0; length > 0 && i < G_N_ELEMENTS(places); i++) {
-    char *path = g_build_filename(folder, places[i], NULL);
+    g_autofree char *path = g_build_filename(folder, places[i], NULL);
     if (access(path, X_OK) == 0) {
       execv(path, arguments);
     }
-    g_free(path);
   }
-  g_free(folder);
   execvp("sealbench-gtk", arguments);
   sb_cli_fail("the window's program sealbench-gtk cannot be started: %s%s", g_strerror(errno),
               SB_GUI_BUILT ? "" : " (this build of Sealbench has no window: Meson's option `gui`)");

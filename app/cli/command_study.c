@@ -355,7 +355,7 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
   if (strpbrk(whole, "\"$`\\") != NULL) {
     return sb_cli_fail("-o: %s has characters that a shell interprets", whole);
   }
-  GString *settings = g_string_new(NULL);
+  g_autoptr(GString) settings = g_string_new(NULL);
   for (char **setting = options->settings; setting != NULL && *setting != NULL; setting++) {
     g_autofree char *text = g_shell_quote(*setting);
     g_string_append_printf(settings, " --set %s", text);
@@ -370,7 +370,6 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
       "exec %s study %s%s -q --jobs 1 --shard \"$SLURM_ARRAY_TASK_ID/%zu\" -o \"%s\"\n",
       options->shard_count, into, "the stores of the jobs", run, of, settings->str,
       options->shard_count, part);
-  g_string_free(settings, TRUE);
   return sb_output_write(options->slurm, text, strlen(text), &error) ? SB_EXIT_DONE
                                                                      : sb_cli_error(error);
 }

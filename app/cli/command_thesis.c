@@ -177,7 +177,7 @@ static void free_job(void *data) {
 
 // Names that are meant; false, told, for one that there is not.
 static bool take_names(Work *work, char **items, const char *name) {
-  GString *names = g_string_new(NULL);
+  g_autoptr(GString) names = g_string_new(NULL);
   for (char **item = items; *item != NULL; item += 2) {
     g_string_append_printf(names, "%s%s", names->len > 0 ? "|" : "", *item);
     if (name == NULL || strcmp(name, *item) == 0) {
@@ -191,7 +191,6 @@ static bool take_names(Work *work, char **items, const char *name) {
     (void)sb_cli_unknown("there is no table or figure", name != NULL ? name : "", names->str,
                          "see sealbench thesis");
   }
-  g_string_free(names, TRUE);
   return work->jobs->len > 0;
 }
 

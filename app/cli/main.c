@@ -34,13 +34,12 @@ static void print_help(FILE *stream) {
   fprintf(stream, "Sealbench %s: a workbench for the seals of inhaler valves.\n\nUsage:\n",
           sb_version());
   for (const SbCommand *command = sb_commands(); command->name != NULL; command++) {
-    char *head = g_strdup_printf("%s %s", command->name, command->usage);
+    g_autofree char *head = g_strdup_printf("%s %s", command->name, command->usage);
     if (strlen(head) > 32) {
       fprintf(stream, "  sealbench %s\n  %43s%s\n", head, "", command->help);
     } else {
       fprintf(stream, "  sealbench %-32s %s\n", head, command->help);
     }
-    g_free(head);
   }
   fputs("  sealbench --version | --help | COMMAND --help\n\n"
         "Values carry units: --load 850.2N/m, --set seal.section_diameter=1.63mm.\n"
@@ -80,12 +79,11 @@ int main(int argc, char **argv) {
     print_version();
     code = SB_EXIT_DONE;
   } else if (command->name == NULL) {
-    GString *names = g_string_new("--help|--version");
+    g_autoptr(GString) names = g_string_new("--help|--version");
     for (command = sb_commands(); command->name != NULL; command++) {
       g_string_append_printf(names, "|%s", command->name);
     }
     sb_cli_unknown("there is no command", argv[1], names->str, "see sealbench --help");
-    g_string_free(names, TRUE);
   } else {
     code = command->main(argc - 1, argv + 1);
   }

@@ -72,9 +72,8 @@ static void print_solver(const SbSummary *summary, bool converged) {
   sb_cli_warnings(&summary->warnings);
   printf("Solver\n");
   sb_cli_line("Converged", converged ? "yes" : "NO");
-  char *frames = g_strdup_printf("%zu", summary->frames);
+  g_autofree char *frames = g_strdup_printf("%zu", summary->frames);
   sb_cli_line("Frames", frames);
-  g_free(frames);
   sb_cli_figure("Engine time", summary->wall_s, "s", "ms");
 }
 

@@ -227,7 +227,7 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
       continue;
     }
     if (at < 0) {
-      GString *list = g_string_new(NULL);
+      g_autoptr(GString) list = g_string_new(NULL);
       for (size_t i = 0; i < sb_text_table_columns(table) && i < 8; i++) {
         g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "",
                                sb_text_table_column(table, i)->name);
@@ -240,7 +240,6 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
           c == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0
               ? ", or specify the constant speed of the machine, as in speed = 20 mm/min"
               : "");
-      g_string_free(list, TRUE);
       return false;
     }
     const SbTextTableColumn *column = sb_text_table_column(table, (size_t)at);

@@ -32,7 +32,7 @@ static double median(double *value, size_t count) {
 // Median force of at most LOOKED of the rows of [begin, end) with a displacement in [low, high].
 static double median_force(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
   const size_t step = (end - begin) / LOOKED + 1;
-  double *value = g_new(double, (end - begin) / step + 1);
+  g_autofree double *value = g_new(double, (end - begin) / step + 1);
   size_t count = 0;
   for (size_t i = begin; i < end; i += step) {
     if (m->displacement[i] >= low && m->displacement[i] <= high) {
@@ -40,7 +40,6 @@ static double median_force(const SbMeasured *m, size_t begin, size_t end, double
     }
   }
   const double result = median(value, count);
-  g_free(value);
   return result;
 }
 
@@ -114,7 +113,7 @@ static double opening(const SbMeasured *m, const GArray *turns) {
 
 static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   const char *said = data->text[SB_DATA_DIRECTION];
-  GArray *turns = find_turns(m);
+  g_autoptr(GArray) turns = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
     m->turned_force = strcmp(said, "force") == 0 || strcmp(said, "both") == 0;
@@ -144,12 +143,11 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
   if (m->turned_displacement) {
     turn_round(m->displacement, m->count);
   }
-  g_array_unref(turns);
 }
 
 static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   m->cycle = g_array_new(FALSE, FALSE, sizeof(SbMeasuredCycle));
-  GArray *turns = find_turns(m);
+  g_autoptr(GArray) turns = find_turns(m);
   for (guint k = 0; k + 1 < turns->len && m->cycle->len < SB_MEASURED_CYCLES_MAX; k++) {
     const size_t begin = g_array_index(turns, size_t, k);
     const size_t turn = g_array_index(turns, size_t, k + 1);
@@ -159,7 +157,6 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
       g_array_append_val(m->cycle, cycle);
     }
   }
-  g_array_unref(turns);
   if (m->cycle->len == 0) {
     sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "no stroke into the valve was found in it");
     return false;
@@ -289,7 +286,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     m->displacement[i] -= m->slope * m->force[i];
   }
   if (zero == NULL) {
-    double *place = g_new(double, rise.end - rise.begin + 1);
+    g_autofree double *place = g_new(double, rise.end - rise.begin + 1);
     size_t count = 0;
     for (size_t i = rise.begin; i < rise.end && count < LOOKED; i++) {
       if (m->force[i] > 0.1 * (rise.level - m->no_load)) {
@@ -300,7 +297,6 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
       m->zero = SB_HOW_FOUND;
       m->at_rest = median(place, count);
     }
-    g_free(place);
   }
   for (size_t i = 0; i < m->count; i++) {
     m->displacement[i] -= m->at_rest;
@@ -331,7 +327,7 @@ static void find_noise(SbMeasured *m) {
   const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
   const double stroke = m->displacement[cycle->turn];
   const size_t step = (cycle->end - cycle->begin) / LOOKED + 1;
-  double *value = g_new(double, (cycle->end - cycle->begin) / step + 1);
+  g_autofree double *value = g_new(double, (cycle->end - cycle->begin) / step + 1);
   size_t count = 0;
   for (size_t i = cycle->begin + 1; i + 1 < cycle->end; i += step) {
     if (m->displacement[i] > 0.05 * stroke && m->displacement[i] < 0.95 * stroke) {
@@ -342,7 +338,6 @@ static void find_noise(SbMeasured *m) {
   if (m->no_load_rows > 0 && isfinite(m->noise)) {
     m->no_load_deviation = m->noise / sqrt((double)m->no_load_rows);
   }
-  g_free(value);
 }
 
 // ---- Stages ----

@@ -18,9 +18,8 @@ SbDocument *sb_document_new(void) {
   document->kind = SB_DOCUMENT_VALVE;
   document->title = g_strdup("Untitled");
   document->text = g_strdup("[sealbench]\nformat = 1\nkind = valve\n");
-  GPtrArray *none = sb_issues_new();
+  g_autoptr(GPtrArray) none = sb_issues_new();
   document->entries = sb_reader_scan(document->text, strlen(document->text), "", none);
-  g_ptr_array_unref(none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   g_array_set_clear_func(document->edits, sb_document_clear_edit);
   document->notes = g_ptr_array_new_with_free_func(g_free);
@@ -152,7 +151,7 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
         sb_parts_is_shape_key(entry->group, entry->name)) {
       continue;
     }
-    char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
+    g_autofree char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
     int id = sb_param_find(key);
     if (strcmp(key, SB_RUBBER_KEY) == 0) {
       SbNamedRubber *rubber =
@@ -173,9 +172,8 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
       double value = 0;
       SbReport report;
       if (!sb_param_parse(&value, (SbParamId)id, entry->value, &error)) {
-        char *range = sb_param_range((SbParamId)id);
+        g_autofree char *range = sb_param_range((SbParamId)id);
         sb_issues_add(issues, shown, entry->line, key, range, "%s", error->message);
-        g_free(range);
         g_error_free(error);
       } else if (sb_params_set(params, (SbParamId)id, value, &report) != SB_OK) {
         sb_issues_add(issues, shown, entry->line, key, NULL, "%s", report.text);
@@ -183,7 +181,6 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
         sb_document_note_hardness(document, key, entry->value);
       }
     }
-    g_free(key);
   }
   sb_document_read_limits(&document->limits, entries, shown, issues);
   sb_document_read_cases(document->cases, SB_CASES_GROUP, entries, shown, issues);
@@ -221,9 +218,8 @@ static bool read_meta(SbDocumentKind *kind, const GPtrArray *entries, const char
     }
     static const char *const names[] = {"format", "kind", "title", "valve", NULL};
     if (!g_strv_contains(names, entry->name)) {
-      char *key = g_strdup_printf("%s.%s", SB_META_GROUP, entry->name);
+      g_autofree char *key = g_strdup_printf("%s.%s", SB_META_GROUP, entry->name);
       sb_issues_add(issues, shown, entry->line, key, "format, kind, title, valve", "unknown key");
-      g_free(key);
     }
   }
   return true;
@@ -274,18 +270,16 @@ static void read_valve(SbDocument *document, const char *directory, const char *
     return;
   }
   sb_file_stamp_set(&document->valve_disk, document->valve_path, text, length);
-  GPtrArray *entries = sb_reader_scan(text, length, document->valve_path, issues);
+  g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, document->valve_path, issues);
   SbDocumentKind kind = SB_DOCUMENT_VALVE;
   if (issues->len == before && read_meta(&kind, entries, document->valve_path, issues) &&
       kind != SB_DOCUMENT_VALVE) {
     sb_issues_add(issues, document->valve_path, 0, "sealbench.kind", "valve",
                   "a scene needs a valve here");
   }
-  char *beside = g_path_get_dirname(document->valve_path);
+  g_autofree char *beside = g_path_get_dirname(document->valve_path);
   read_values(document, &document->base, NULL, entries, document->valve_path, beside, issues);
   read_files(document, entries, document->valve_path, beside, true, issues);
-  g_free(beside);
-  g_ptr_array_unref(entries);
   g_free(text);
 }
 
@@ -295,9 +289,8 @@ void sb_document_refresh_title(SbDocument *document) {
   if (title != NULL && *title != '\0') {
     document->title = sb_printable(title, strlen(title));
   } else if (document->path != NULL) {
-    char *name = g_path_get_basename(document->path);
+    g_autofree char *name = g_path_get_basename(document->path);
     document->title = sb_printable(name, strlen(name));
-    g_free(name);
   } else {
     document->title = g_strdup("Untitled");
   }
@@ -331,11 +324,10 @@ void sb_document_note_hardness(SbDocument *document, const char *key, const char
 
 // Adds the note on a value in force that is not what a shape under it makes.
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown) {
-  char *note = sb_document_shape_note(document, id);
+  g_autofree char *note = sb_document_shape_note(document, id);
   if (note != NULL) {
     g_ptr_array_add(document->notes, g_strdup_printf("%s: %s", shown, note));
   }
-  g_free(note);
 }
 
 SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
@@ -425,7 +417,7 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
   }
   static const char signature[] = "\x89PNG";
   picture = picture || (length > 4 && memcmp(text, signature, 4) == 0);
-  char *directory = stream ? NULL : g_path_get_dirname(path);
+  g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
   SbDocument *document = picture ? parse_picture(text, length, name, issues)
                                  : sb_document_parse(text, length, name, directory, issues);
   if (document != NULL && !picture && !stream) {
@@ -433,7 +425,6 @@ SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
     sb_file_stamp_set(&document->disk, path, text, length);
     sb_document_refresh_title(document);
   }
-  g_free(directory);
   g_free(text);
   return document;
 }
@@ -569,10 +560,9 @@ static void add_problems(const SbDocument *document, const SbParams *params,
       param = sb_param((SbParamId)id);
     }
     bool in_valve = !document->own.given[id] && document->base.given[id];
-    char *range = sb_document_problem_range(problem, param);
+    g_autofree char *range = sb_document_problem_range(problem, param);
     sb_issues_add(issues, in_valve ? document->valve_path : shown, 0, param->key, range, "%s",
                   problem->text);
-    g_free(range);
   }
 }
 
@@ -616,9 +606,8 @@ char *sb_document_sha256(const SbDocument *document) {
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     char digits[SB_NUMBER_SIZE];
     sb_number_format(digits, sb_params_get(&params, (SbParamId)i));
-    char *line = g_strdup_printf("%s=%s\n", sb_param((SbParamId)i)->key, digits);
+    g_autofree char *line = g_strdup_printf("%s=%s\n", sb_param((SbParamId)i)->key, digits);
     g_checksum_update(sum, (const guchar *)line, -1);
-    g_free(line);
   }
   if (document->data != NULL) {
     sum_series(sum, &document->data->measured);

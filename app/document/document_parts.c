@@ -239,7 +239,7 @@ static double in_force(const Part *part, SbParamId id) {
 static void derive_land(const Part *part, double diameter, double from) {
   SbShapes *shapes = part->shapes;
   const SbOutline *outline = &shapes->outlines.part[part->index];
-  SbOutlineSurface *s = g_new(SbOutlineSurface, 1);
+  g_autofree SbOutlineSurface *s = g_new(SbOutlineSurface, 1);
   sb_outline_surface(s, outline);
   // To the left as long as the hole is no wider.
   double wider = diameter / 2 * (1 + 1e-4);
@@ -260,7 +260,6 @@ static void derive_land(const Part *part, double diameter, double from) {
     derive_size(part, SB_P_BORE_ENTRY_LENGTH, edge - face, "bore");
     derive_size(part, SB_P_BORE_ENTRY_DIAMETER, 2 * low, "bore");
   }
-  g_free(s);
 }
 
 // One groove, wall to wall.

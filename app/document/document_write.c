@@ -9,10 +9,10 @@
 
 // Path of `target` as seen from `directory`. Owned by the caller.
 static char *relative_path(const char *target, const char *directory) {
-  char *to = g_canonicalize_filename(target, NULL);
-  char *from = g_canonicalize_filename(directory, NULL);
-  char **a = g_strsplit(to, "/", -1);
-  char **b = g_strsplit(from, "/", -1);
+  g_autofree char *to = g_canonicalize_filename(target, NULL);
+  g_autofree char *from = g_canonicalize_filename(directory, NULL);
+  g_auto(GStrv) a = g_strsplit(to, "/", -1);
+  g_auto(GStrv) b = g_strsplit(from, "/", -1);
   size_t common = 0;
   while (a[common] != NULL && b[common] != NULL && strcmp(a[common], b[common]) == 0) {
     common++;
@@ -24,10 +24,6 @@ static char *relative_path(const char *target, const char *directory) {
   for (size_t i = common; a[i] != NULL; i++) {
     g_string_append_printf(path, "%s%s", a[i], a[i + 1] != NULL ? "/" : "");
   }
-  g_strfreev(a);
-  g_strfreev(b);
-  g_free(to);
-  g_free(from);
   return g_string_free(path, FALSE);
 }
 
@@ -38,16 +34,14 @@ static char *moved_name(const SbDocument *document, const char *target, const ch
   if (target == NULL || path == NULL || g_path_is_absolute(old_name)) {
     return NULL;
   }
-  char *directory = g_path_get_dirname(path);
+  g_autofree char *directory = g_path_get_dirname(path);
   char *name = relative_path(target, directory);
-  char *before = document->path != NULL ? g_path_get_dirname(document->path) : g_strdup(".");
-  char *same = relative_path(directory, before);
+  g_autofree char *before =
+      document->path != NULL ? g_path_get_dirname(document->path) : g_strdup(".");
+  g_autofree char *same = relative_path(directory, before);
   if (*same == '\0') {
     g_clear_pointer(&name, g_free);
   }
-  g_free(same);
-  g_free(before);
-  g_free(directory);
   return name;
 }
 
@@ -217,9 +211,8 @@ static void append_group(GString *text, const SbParams *params, const char *grou
         g_string_append_printf(text, "\n[%.*s]\n", (int)length, group);
         heading = true;
       }
-      char *value = sb_param_format((SbParamId)i, sb_params_get(params, (SbParamId)i));
+      g_autofree char *value = sb_param_format((SbParamId)i, sb_params_get(params, (SbParamId)i));
       g_string_append_printf(text, "%s = %s\n", dot + 1, value);
-      g_free(value);
     }
   }
 }
@@ -261,7 +254,7 @@ char *sb_document_to_flat_text(const SbDocument *document) {
   GString *text = g_string_new("[" SB_META_GROUP "]\nformat = 1\nkind = valve\n");
   g_string_append_printf(text, "title = %s\n", document->title);
   // Each group once, in the catalogue's order.
-  GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  g_autoptr(GHashTable) seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const char *key = sb_param((SbParamId)i)->key;
     size_t length = (size_t)(strrchr(key, '.') - key);
@@ -271,7 +264,6 @@ char *sb_document_to_flat_text(const SbDocument *document) {
       append_files(text, document, key, length);
     }
   }
-  g_hash_table_unref(seen);
   sb_document_append_limits(text, &document->limits);
   sb_document_append_cases(text, document->cases);
   return g_string_free(text, FALSE);
@@ -288,10 +280,9 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   if (valve != NULL) {
     g_free(document->valve_name);
     document->valve_name = valve;
-    char *directory = g_path_get_dirname(path);
+    g_autofree char *directory = g_path_get_dirname(path);
     g_free(document->valve_path);
     document->valve_path = g_build_filename(directory, valve, NULL);
-    g_free(directory);
   }
   for (int i = 0; i < SB_FILE_COUNT; i++) {
     char *name = moved_file(document, i, path);
@@ -308,7 +299,7 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   g_free(document->text);
   document->text = text;
   sb_file_stamp_set(&document->disk, path, text, strlen(text));
-  GPtrArray *none = sb_issues_new();
+  g_autoptr(GPtrArray) none = sb_issues_new();
   g_ptr_array_unref(document->entries);
   document->entries = sb_reader_scan(text, strlen(text), path, none);
   if (document->measured != NULL) {
@@ -319,7 +310,6 @@ bool sb_document_save(SbDocument *document, const char *path, GError **error) {
   sb_document_data_saved(document);
   document->pins_changed = false;
   document->remarks_changed = false;
-  g_ptr_array_unref(none);
   char *kept = g_strdup(path);
   g_free(document->path);
   document->path = kept;

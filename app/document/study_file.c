@@ -377,7 +377,7 @@ static void read_groups(SbStudyReader *reader) {
 // into force. Owned by the caller.
 static char *hash_scene(const SbDocument *scene) {
   g_autofree char *values = sb_document_sha256(scene);
-  GString *text = g_string_new(values);
+  g_autoptr(GString) text = g_string_new(values);
   const SbRubberSheet *rubber = scene->data != NULL ? &scene->data->rubber : NULL;
   for (size_t i = 0; rubber != NULL && i < rubber->count; i++) {
     char digits[SB_NUMBER_SIZE];
@@ -386,7 +386,6 @@ static char *hash_scene(const SbDocument *scene) {
                            sb_number_format(digits, rubber->figure[i].value));
   }
   char *hash = g_compute_checksum_for_string(G_CHECKSUM_SHA256, text->str, -1);
-  g_string_free(text, TRUE);
   return hash;
 }
 

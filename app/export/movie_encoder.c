@@ -204,7 +204,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
   encoder->quantiser = encoder->how->pixels == AV_PIX_FMT_PAL8 ? sb_quantiser_create() : NULL;
   encoder->width = options->width;
   encoder->height = options->height;
-  char *url = g_strdup_printf("file:%s", path);
+  g_autofree char *url = g_strdup_printf("file:%s", path);
   SbStatus status = SB_OK;
   int code = avformat_alloc_output_context2(&encoder->format, NULL, encoder->how->muxer, url);
   if (code < 0) {
@@ -254,7 +254,6 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     encoder->header = code >= 0;
     status = code < 0 ? fail(report, "the film's header", code) : check_output(encoder, report);
   }
-  g_free(url);
   if (status != SB_OK) {
     sb_movie_encoder_destroy(encoder);
     return status;

@@ -137,9 +137,8 @@ static bool write_all(SbOutputFolder *folder, SbMoviePictures *film, const SbRen
       return false;
     }
     picture.index = i;
-    char *name = g_strdup_printf("%.*s%0*zu%s", (int)at, pattern, digits, i + 1, rest);
+    g_autofree char *name = g_strdup_printf("%.*s%0*zu%s", (int)at, pattern, digits, i + 1, rest);
     bool good = write_one(folder, &still, name, error);
-    g_free(name);
     if (!good) {
       return false;
     }

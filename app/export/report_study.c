@@ -163,7 +163,7 @@ static void draw_statistics(SbReportPages *pages, Study *study) {
 static void draw_warnings(SbReportPages *pages, const Study *study) {
   size_t count = 0;
   g_autofree SbCodeCount *codes = sb_study_warnings(&count, study->answers);
-  GString *text = g_string_new("Warnings of validity: ");
+  g_autoptr(GString) text = g_string_new("Warnings of validity: ");
   for (size_t i = 0; i < count; i++) {
     g_string_append_printf(text, "%s%s in %zu", i > 0 ? ", " : "", codes[i].code, codes[i].count);
   }
@@ -172,7 +172,6 @@ static void draw_warnings(SbReportPages *pages, const Study *study) {
     sb_report_skip(pages, 6);
     sb_report_text(pages, text->str, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   }
-  g_string_free(text, TRUE);
 }
 
 static char *vary_value(const SbVary *vary, double value) {
@@ -470,7 +469,7 @@ static void make_curves(Study *study) {
     panel->limit_low = limit.low;
     panel->limit_high = limit.high;
     for (size_t line = 0; line < samples / length; line++) {
-      GString *name = g_string_new(NULL);
+      g_autoptr(GString) name = g_string_new(NULL);
       for (size_t p = 0; p + 1 < n; p++) {
         g_autofree char *value =
             sb_param_format(vary_at(study, p)->id, study->of->value[line * length * n + p]);
@@ -478,7 +477,6 @@ static void make_curves(Study *study) {
       }
       SbStudySeries *series =
           sb_study_series(panel, SB_STUDY_CURVE, name->len > 0 ? name->str : label);
-      g_string_free(name, TRUE);
       for (size_t i = 0; i < length; i++) {
         const size_t sample = line * length + i;
         sb_study_point(series, study->of->value[sample * n + n - 1],

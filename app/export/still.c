@@ -149,11 +149,9 @@ static bool put_png(FILE *stream, const SbStill *still, GError **error) {
   }
   if (good) {
     cairo_surface_flush(surface);
-    char *software = sb_identity_text();
-    png_byte *row = g_malloc(3 * (size_t)width);
+    g_autofree char *software = sb_identity_text();
+    g_autofree png_byte *row = g_malloc(3 * (size_t)width);
     good = encode_png(stream, surface, still, scale, software, row, error);
-    g_free(row);
-    g_free(software);
   }
   cairo_surface_destroy(surface);
   return good;
@@ -171,20 +169,16 @@ static cairo_status_t append_bytes(void *closure, const unsigned char *data, uns
 static char *svg_metadata(const SbStill *still) {
   const SbEngineIdentity *engine = sb_engine_identity();
   GString *out = g_string_new("\n");
-  char *title = g_markup_escape_text(still->title ? still->title : "Sealbench", -1);
-  char *comment = g_markup_escape_text(still->comment ? still->comment : "", -1);
-  char *scene = g_markup_escape_text(still->scene ? still->scene : "", -1);
-  char *hash = g_markup_escape_text(still->hash ? still->hash : "", -1);
+  g_autofree char *title = g_markup_escape_text(still->title ? still->title : "Sealbench", -1);
+  g_autofree char *comment = g_markup_escape_text(still->comment ? still->comment : "", -1);
+  g_autofree char *scene = g_markup_escape_text(still->scene ? still->scene : "", -1);
+  g_autofree char *hash = g_markup_escape_text(still->hash ? still->hash : "", -1);
   g_string_append_printf(out, "<title>%s</title>\n<desc>%s</desc>\n", title, comment);
   g_string_append_printf(out,
                          "<metadata><sealbench xmlns=\"urn:sealbench\" version=\"%s\" "
                          "engine=\"%s\" commit=\"%s\" hash=\"%s\">%s</sealbench></metadata>",
                          engine->version, engine->source,
                          engine->commit != NULL ? engine->commit : "", hash, scene);
-  g_free(hash);
-  g_free(scene);
-  g_free(comment);
-  g_free(title);
   return g_string_free(out, FALSE);
 }
 
@@ -204,18 +198,16 @@ static bool put_svg(FILE *stream, const SbStill *still, GError **error) {
     g_byte_array_append(bytes, (const guint8 *)"", 1);
     const char *text = (const char *)bytes->data, *tag = strstr(text, "<svg");
     const char *end = tag ? strchr(tag, '>') : NULL;
-    GString *out = g_string_new(NULL);
+    g_autoptr(GString) out = g_string_new(NULL);
     if (end) {
-      char *metadata = svg_metadata(still);
+      g_autofree char *metadata = svg_metadata(still);
       g_string_append_len(out, text, end + 1 - text);
       g_string_append(out, metadata);
       g_string_append(out, end + 1);
-      g_free(metadata);
     } else {
       g_string_append(out, text);
     }
     fwrite(out->str, 1, out->len, stream);
-    g_string_free(out, TRUE);
   }
   g_byte_array_unref(bytes);
   return good;

@@ -36,7 +36,7 @@ static void tell_stop(int process) {
 // An answer: the sample's number, its status, its figures; why it failed, its warnings.
 static void take_answer(SbAnswerSink *sink, const SbQuestions *asked, int source) {
   const int size = (int)(2 + asked->figures);
-  double *message = g_new(double, (size_t)size);
+  g_autofree double *message = g_new(double, (size_t)size);
   char text[REASON + WARNINGS];
   MPI_Recv(message, size, MPI_DOUBLE, source, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
   MPI_Recv(text, sizeof text, MPI_CHAR, source, TAG_ANSWER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
@@ -46,7 +46,6 @@ static void take_answer(SbAnswerSink *sink, const SbQuestions *asked, int source
                                  .warnings = text[REASON] != '\0' ? g_strdup(text + REASON) : NULL};
   memcpy(sb_answer_place(sink, sample), message + 2, asked->figures * sizeof *message);
   sb_answer_take(sink, sample, answer);
-  g_free(message);
 }
 
 // ---- The first process' own samples ----

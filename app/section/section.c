@@ -71,7 +71,7 @@ void sb_section_limits_add_shape(SbSectionLimits *limits, const SbSealShape *sha
   if (shape == NULL) {
     return;
   }
-  float *sorted = g_new(float, shape->nodes);
+  g_autofree float *sorted = g_new(float, shape->nodes);
   for (int field = 0; field < SB_FIELD_COUNT; field++) {
     memcpy(sorted, shape->field[field], shape->nodes * sizeof *sorted);
     qsort(sorted, shape->nodes, sizeof *sorted, ascending);
@@ -79,7 +79,6 @@ void sb_section_limits_add_shape(SbSectionLimits *limits, const SbSealShape *sha
     limits->field_max[field] =
         fmax(limits->field_max[field], sorted[shape->nodes - 1 - shape->nodes / 50]);
   }
-  g_free(sorted);
 }
 
 void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run) {

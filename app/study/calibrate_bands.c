@@ -70,9 +70,9 @@ static void add_tangent(double *square, double *count, const Work *work, const S
 bool sb_calibrate_draws(SbCalibration *out, Work *work, const SbInference *found, bool prior) {
   const size_t draws = out->tangent ? SB_CALIBRATION_CHECKS : BAND_DRAWS;
   const size_t n = work->coordinates;
-  double *force = g_new(double, draw_place(work->curves, 0, 0));
-  double *residual = g_new(double, work->residuals + 1), square = 0, count = 0;
-  SbMeasuredBand *band = g_new(SbMeasuredBand, work->curves);
+  g_autofree double *force = g_new(double, draw_place(work->curves, 0, 0));
+  g_autofree double *residual = g_new(double, work->residuals + 1), square = 0, count = 0;
+  g_autofree SbMeasuredBand *band = g_new(SbMeasuredBand, work->curves);
   for (size_t c = 0; c < work->curves; c++) {
     band[c].end = 0;
     for (size_t i = 0; i < work->curve[c].points; i++) {
@@ -101,8 +101,5 @@ bool sb_calibrate_draws(SbCalibration *out, Work *work, const SbInference *found
   if (out->tangent && !prior) {
     out->check_rms = sqrt(square / count);
   }
-  g_free(force);
-  g_free(residual);
-  g_free(band);
   return good;
 }

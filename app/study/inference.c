@@ -51,9 +51,8 @@ static bool differentiate(Work *work, double *jacobian, const double *z) {
       work->at_fit && asked->differentiate_fit != NULL ? asked->differentiate_fit
                                                        : asked->differentiate;
   if (by != NULL) {
-    double *residual = g_new(double, m);
+    g_autofree double *residual = g_new(double, m);
     const bool good = evaluate(work, residual, z) && by(asked->data, jacobian, z, residual);
-    g_free(residual);
     work->cancelled |= !good;
     return good;
   }
@@ -159,7 +158,7 @@ static double integrated(const double *x, size_t count, bool first) {
 // lag alone, on the path to the fit.
 static void find_spread(Work *work, const double *residual, bool first) {
   const SbInferenceAsked *asked = work->asked;
-  double *x = g_new(double, asked->residuals + 1);
+  g_autofree double *x = g_new(double, asked->residuals + 1);
   for (size_t g = 0; g < asked->groups; g++) {
     size_t count = 0;
     for (size_t i = 0; i < asked->residuals; i++) {
@@ -173,7 +172,6 @@ static void find_spread(Work *work, const double *residual, bool first) {
     work->out->spread[g] =
         first || rows <= 1 ? rows : rows * independent / fmax(independent - taken - 2, LEAST_FREE);
   }
-  g_free(x);
 }
 
 static double spread_of(const Work *work, size_t i) {
@@ -337,7 +335,7 @@ static SbStatus fit(Work *work) {
   enum { ROUNDS = 18, SPREAD_ROUND = 11 };
   bool spread = false;
   bool good = w != NULL && weight != NULL && evaluate(work, out->residual, out->z);
-  double *before = g_new(double, n), *residual = g_new(double, m);
+  g_autofree double *before = g_new(double, n), *residual = g_new(double, m);
   if (good) {
     find_sigma(work, out->residual, true);
   }
@@ -366,8 +364,6 @@ static SbStatus fit(Work *work) {
       }
     }
   }
-  g_free(residual);
-  g_free(before);
   gsl_multifit_nlinear_free(w);
   gsl_vector_free(weight);
   good = !work->cancelled && polish(work) && good;

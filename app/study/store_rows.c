@@ -235,7 +235,7 @@ static bool is_same(const SbStoreRecord *a, const SbStoreRecord *b) {
 // Names two answers to one question by the first figure that differs.
 static void report_difference(Copy *copy, const SbStoreRow *row, const SbStoreRecord *other) {
   g_autofree char *name = sb_store_row_name(row);
-  GString *text = g_string_new(NULL);
+  g_autoptr(GString) text = g_string_new(NULL);
   for (size_t i = 0; i < row->figures && row->list != NULL && text->len == 0; i++) {
     double value = NAN;
     if ((i + 1) * sizeof value <= (size_t)other->figures_size) {
@@ -248,7 +248,6 @@ static void report_difference(Copy *copy, const SbStoreRow *row, const SbStoreRe
   g_set_error(&copy->error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
               "%s and %s have different results for one request%s, %s; nothing was merged",
               copy->to->path, copy->from, text->str, name);
-  g_string_free(text, TRUE);
 }
 
 // Whether the target has no row of this key; an equal one is no error.

@@ -26,7 +26,7 @@ static void indent(SbJson *json) {
 }
 
 static void quote(SbJson *json, const char *value) {
-  char *valid = g_utf8_make_valid(value, -1);
+  g_autofree char *valid = g_utf8_make_valid(value, -1);
   g_string_append_c(json->text, '"');
   for (const char *c = valid; *c != '\0'; c++) {
     if (*c == '"' || *c == '\\') {
@@ -39,7 +39,6 @@ static void quote(SbJson *json, const char *value) {
     }
   }
   g_string_append_c(json->text, '"');
-  g_free(valid);
 }
 
 // Comma, new line and key before a value.

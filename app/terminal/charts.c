@@ -352,7 +352,7 @@ void sb_chart_study(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, c
                                 SB_ROLE_WARN,  SB_ROLE_INK};
   const SbStudyPanel *of = &study->panel[panel];
   SbCellCurve curve[SB_STUDY_SERIES];
-  double *memory = g_new(double, 2 * SB_STUDY_SERIES * SB_STUDY_POINTS);
+  g_autofree double *memory = g_new(double, 2 * SB_STUDY_SERIES * SB_STUDY_POINTS);
   for (size_t i = 0; i < of->series_count; i++) {
     const SbStudySeries *series = &of->series[i];
     double *x = memory + 2 * i * SB_STUDY_POINTS, *y = x + SB_STUDY_POINTS;
@@ -372,7 +372,6 @@ void sb_chart_study(SbCells *cells, SbCellRect rect, const SbCellTheme *theme, c
       study->x.quantity, study->x.unit[0] != '\0' ? " / " : "", study->x.unit);
   sb_chart_curves(cells, rect, theme, heading, curve, of->series_count, study->x.logarithmic,
                   of->y.logarithmic);
-  g_free(memory);
 }
 
 void sb_chart_histogram(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,

@@ -140,15 +140,14 @@ static SbStudyFile *make_study(Page *page) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   SbDocument *copy =
       sb_document_parse(flat, strlen(flat), sb_document_title(document), NULL, issues);
-  GString *text = g_string_new("[sealbench]\nformat = 1\nkind = study\nscene = document\n"
-                               "[study]\nsamples = 2000\n");
+  g_autoptr(GString) text = g_string_new("[sealbench]\nformat = 1\nkind = study\nscene = document\n"
+                                         "[study]\nsamples = 2000\n");
   append_priors(text, page);
   append_data(text, page);
   SbStudyFile *study = copy != NULL
                            ? sb_study_file_parse(text->str, text->len, sb_document_title(document),
                                                  NULL, NULL, copy, issues)
                            : NULL;
-  g_string_free(text, TRUE);
   if (study == NULL) {
     g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup("");
     say(page, line);

@@ -265,7 +265,7 @@ static char *found_text(const SbDesignAnswer *answer) {
 // Shows what marks the best design below the sentence: bounds that it is on, and its warnings of
 // validity. NULL: nothing.
 static void show_marks(Page *page, const SbDesignAnswer *answer) {
-  GString *text = g_string_new(NULL);
+  g_autoptr(GString) text = g_string_new(NULL);
   if (answer != NULL && answer->searched && answer->found.found) {
     g_autofree char *bounds = sb_design_bounds(&answer->found, answer->study);
     g_autofree char *codes = sb_warning_codes(answer->found.warnings, ", ");
@@ -279,7 +279,6 @@ static void show_marks(Page *page, const SbDesignAnswer *answer) {
   }
   gtk_label_set_text(GTK_LABEL(page->marks), text->str);
   gtk_widget_set_visible(page->marks, text->len > 0);
-  g_string_free(text, TRUE);
 }
 
 static void on_done(void *data) {

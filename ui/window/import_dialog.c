@@ -555,14 +555,13 @@ static void open_dialog(GtkWindow *parent, SbSession *session, const Kind *kind,
   const SbData *own = sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL;
   g_autofree char *its = own != NULL ? g_canonicalize_filename(own->path, NULL) : NULL;
   if (kind == &measured_kind && g_strcmp0(its, dialog->path) == 0) {
-    GString *keys = g_string_new(NULL);
+    g_autoptr(GString) keys = g_string_new(NULL);
     for (int key = 0; key < SB_DATA_KEY_COUNT; key++) {
       if (own->text[key] != NULL) {
         g_string_append_printf(keys, "%s = %s\n", sb_data_key_name((SbDataKey)key), own->text[key]);
       }
     }
     fill(dialog, keys->str, TRUE);
-    g_string_free(keys, TRUE);
   }
   read_file(dialog);
 }

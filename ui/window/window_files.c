@@ -83,13 +83,12 @@ static void load(SbWindowFiles *files, GFile *file) {
 // What a merge could not decide by itself.
 static void show_conflicts(SbWindowFiles *files, const GPtrArray *conflicts) {
   if (conflicts->len > 0) {
-    GString *text = g_string_new(NULL);
+    g_autoptr(GString) text = g_string_new(NULL);
     for (guint i = 0; i < conflicts->len && i < LINES_MAX; i++) {
       g_string_append_printf(text, "%s%s", i > 0 ? "\n" : "", (char *)conflicts->pdata[i]);
     }
     show_message(files, GTK_MESSAGE_INFO,
                  _("Both versions changed these values; yours are in force."), text->str);
-    g_string_free(text, TRUE);
   }
 }
 
