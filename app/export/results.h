@@ -70,9 +70,15 @@ char *sb_results_plan(const SbPlan *plan, const char *scene);
 // Returns the catalogue of parameters, an array of objects.
 char *sb_results_params(void);
 
-// Return the lists of `sealbench list`: figures, choices of the parameters "models.*" (for files
-// alone), views and drawn studies, fluids. Freed by sb_table_free().
+// Returns the catalogue of figures. Freed by sb_table_free().
 SbTable *sb_list_figures(void);
+
+// Returns the choices of the parameters "models.*" and the film models of the command `film`, for
+// files alone. Freed by sb_table_free().
 SbTable *sb_list_models(void);
+
+// Returns the views and the drawn studies. Freed by sb_table_free().
 SbTable *sb_list_views(void);
+
+// Returns the fluids. Freed by sb_table_free().
 SbTable *sb_list_fluids(void);

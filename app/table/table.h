@@ -29,27 +29,34 @@ typedef struct {
   int digits;            // of a number with a unit for people, at most
 } SbTableCell;
 
-// Return a cell with this value.
+// Returns a cell with a text; NULL: an empty one.
 static inline SbTableCell sb_cell_text(const char *text) {
   return (SbTableCell){.kind = SB_CELL_TEXT, .text = text};
 }
+
+// Returns a cell with a number; NaN: an empty one.
 static inline SbTableCell sb_cell_number(double number) {
   return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number};
 }
-// `answer`: 0 no, 1 yes, NaN unknown.
+
+// Returns a cell with an answer: 0 no, 1 yes, NaN unknown.
 static inline SbTableCell sb_cell_answer(double answer) {
   return (SbTableCell){.kind = SB_CELL_ANSWER, .number = answer};
 }
+
 // Returns a cell with the number `value` [si], for people as sb_quantity_round() writes it.
 static inline SbTableCell sb_cell_quantity(double value, const char *si, const char *unit,
                                            int digits) {
   return (SbTableCell){
       .kind = SB_CELL_NUMBER, .number = value, .si = si, .unit = unit, .digits = digits};
 }
-// Return a cell with this value in files, and the text `shown` for people.
+
+// Returns a cell with `text` in files and the text `shown` for people.
 static inline SbTableCell sb_cell_text_as(const char *text, const char *shown) {
   return (SbTableCell){.kind = SB_CELL_TEXT, .text = text, .shown = shown};
 }
+
+// Returns a cell with `number` in files and the text `shown` for people.
 static inline SbTableCell sb_cell_number_as(double number, const char *shown) {
   return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number, .shown = shown};
 }
@@ -59,7 +66,7 @@ typedef struct SbTable SbTable;
 // Returns an empty table with columns[count], borrowed. Freed by sb_table_free().
 SbTable *sb_table_new(const SbTableColumn *columns, size_t count);
 
-// Frees a table. NULL: no effect.
+// Frees a table.
 void sb_table_free(SbTable *table);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTable, sb_table_free)
 
@@ -102,6 +109,8 @@ void sb_json_cell(SbJson *json, const char *key, const SbTableCell *cell);
 // an object that are named by its texts.
 void sb_table_json(SbJson *json, const char *key, const SbTable *table);
 
-// Return the table as HTML, numbers with the class "n", and as Markdown. Freed by g_free().
+// Returns the table as HTML, numbers with the class "n". Freed by g_free().
 char *sb_table_html(const SbTable *table);
+
+// Returns the table as Markdown. Freed by g_free().
 char *sb_table_markdown(const SbTable *table);
