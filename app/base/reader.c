@@ -134,6 +134,52 @@ static char *group_name(const char *line) {
   return name;
 }
 
+typedef struct {
+  GPtrArray *entries, *issues;
+  GHashTable *seen; // headings "[group]" and keys "group.key"
+  const char *shown;
+  char *group; // NULL: none yet
+  bool skip;   // inside a group whose heading was no good
+} Scan;
+
+static void take_heading(Scan *scan, const char *line, int number) {
+  g_free(scan->group);
+  scan->group = group_name(line);
+  scan->skip = scan->group == NULL;
+  if (scan->skip) {
+    sb_issues_add(scan->issues, scan->shown, number, NULL, NULL, "\"%s\" is not a [group]", line);
+  } else if (!g_hash_table_add(scan->seen, g_strdup_printf("[%s]", scan->group))) {
+    sb_issues_add(scan->issues, scan->shown, number, NULL, NULL, "group [%s] appears twice",
+                  scan->group);
+  } else {
+    add_entry(scan->entries, scan->group, NULL, NULL, number);
+  }
+}
+
+static void take_line(Scan *scan, char *line, int number) {
+  char *equal = strchr(line, '=');
+  if (*line == '[') {
+    take_heading(scan, line, number);
+  } else if (equal == NULL || equal == line) {
+    sb_issues_add(scan->issues, scan->shown, number, NULL, NULL,
+                  "\"%s\" is not \"key = value\" (is the file cut off?)", line);
+  } else if (scan->skip) {
+    // Already reported.
+  } else if (scan->group == NULL) {
+    sb_issues_add(scan->issues, scan->shown, number, NULL, NULL,
+                  "a key is before the first [group]");
+  } else {
+    g_autofree char *name = g_strchomp(g_strndup(line, (size_t)(equal - line)));
+    g_autofree char *key = g_strdup_printf("%s.%s", scan->group, name);
+    if (!g_hash_table_add(scan->seen, g_strdup(key))) {
+      sb_issues_add(scan->issues, scan->shown, number, key, NULL,
+                    "is given twice (again on line %d)", number);
+    } else {
+      add_entry(scan->entries, scan->group, name, g_strchug(equal + 1), number);
+    }
+  }
+}
+
 GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GPtrArray *issues) {
   GPtrArray *entries = g_ptr_array_new_with_free_func(entry_free);
   // Text at all?
@@ -146,58 +192,22 @@ GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GP
     sb_issues_add(issues, shown, line_of(text, bad), NULL, NULL, "is not UTF-8 text");
     return entries;
   }
-  GHashTable *seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
-  char *group = NULL;
-  bool skip = false; // inside a group whose heading was no good
-  int number = 0;
-  char *copy = g_strndup(text, length);
+  g_autoptr(GHashTable) seen = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  Scan scan = {.entries = entries, .issues = issues, .seen = seen, .shown = shown};
+  g_autofree char *copy = g_strndup(text, length);
   const char *start = copy;
   if (length >= 3 && memcmp(text, "\xef\xbb\xbf", 3) == 0) {
     start += 3;
   }
-  while (*start != '\0') {
+  for (int number = 1; *start != '\0'; number++) {
     const char *end = strchr(start, '\n');
-    size_t bytes = end != NULL ? (size_t)(end - start) : strlen(start);
-    char *line = g_strstrip(g_strndup(start, bytes));
+    const size_t bytes = end != NULL ? (size_t)(end - start) : strlen(start);
+    g_autofree char *line = g_strstrip(g_strndup(start, bytes));
     start += bytes + (end != NULL);
-    number++;
-    if (*line == '\0' || *line == '#') {
-      g_free(line);
-      continue;
+    if (*line != '\0' && *line != '#') {
+      take_line(&scan, line, number);
     }
-    char *equal = strchr(line, '=');
-    if (*line == '[') {
-      g_free(group);
-      group = group_name(line);
-      skip = group == NULL;
-      if (skip) {
-        sb_issues_add(issues, shown, number, NULL, NULL, "\"%s\" is not a [group]", line);
-      } else if (!g_hash_table_add(seen, g_strdup_printf("[%s]", group))) {
-        sb_issues_add(issues, shown, number, NULL, NULL, "group [%s] appears twice", group);
-      } else {
-        add_entry(entries, group, NULL, NULL, number);
-      }
-    } else if (equal == NULL || equal == line) {
-      sb_issues_add(issues, shown, number, NULL, NULL,
-                    "\"%s\" is not \"key = value\" (is the file cut off?)", line);
-    } else if (skip) {
-      // Already told.
-    } else if (group == NULL) {
-      sb_issues_add(issues, shown, number, NULL, NULL, "a key is before the first [group]");
-    } else {
-      g_autofree char *name = g_strchomp(g_strndup(line, (size_t)(equal - line)));
-      g_autofree char *key = g_strdup_printf("%s.%s", group, name);
-      if (!g_hash_table_add(seen, g_strdup(key))) {
-        sb_issues_add(issues, shown, number, key, NULL, "is given twice (again on line %d)",
-                      number);
-      } else {
-        add_entry(entries, group, name, g_strchug(equal + 1), number);
-      }
-    }
-    g_free(line);
   }
-  g_free(copy);
-  g_free(group);
-  g_hash_table_unref(seen);
+  g_free(scan.group);
   return entries;
 }

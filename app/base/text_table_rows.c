@@ -41,6 +41,68 @@ static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
   return true;
 }
 
+// What the cells of a line are.
+typedef struct {
+  size_t cells;
+  bool any, good;    // a wanted cell has a number; all wanted cells do, or are empty
+  size_t unreadable; // wanted cells that have none
+} Line;
+
+// Reads the wanted columns of a line to row[count]. Returns a text that says what is wrong with the
+// file, or NULL.
+static const char *read_line(Line *out, double *row, Days *days, const SbTextTable *table,
+                             const size_t *column, size_t count, const char *text, size_t length) {
+  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
+  const char *wrong = NULL;
+  const size_t cells = sb_text_table_split(cell, text, length, table->dialect.separator);
+  *out = (Line){.cells = cells, .good = cells <= table->columns};
+  for (size_t k = 0; k < count && cells <= table->columns; k++) {
+    const size_t at = column[k];
+    SbTextTableClock clock;
+    row[k] = NAN;
+    if (at >= cells || cell[at].length == 0) {
+      continue;
+    }
+    bool read;
+    if (!table->column[at].clock) {
+      read = sb_text_table_number(&row[k], &cell[at], &table->dialect, NULL);
+    } else if ((read = sb_text_table_clock(&clock, &cell[at])) && out->good &&
+               !add_days(&row[k], &days[k], &clock)) {
+      wrong = "is ambiguous: the date advances by a day or by a month, write it as 2026-02-03";
+    }
+    out->any |= read;
+    out->good &= read;
+    out->unreadable += !read;
+  }
+  return wrong;
+}
+
+// Counts a line that is left out, and keeps the first one.
+static void leave_out(SbTextTableRows *out, const Line *line, const SbTextTable *table,
+                      const SbTextTableLines *lines, const char *text, size_t length) {
+  const bool damaged =
+      !line->good && (memchr(text, '\0', length) != NULL ||
+                      (line->cells == table->columns && line->any && line->unreadable == 1));
+  out->damaged += damaged;
+  out->skipped += line->cells > 0 && !damaged;
+  if (line->cells > 0 && out->left_text == NULL) {
+    out->left_line = lines->number;
+    out->left_text = sb_text_table_utf8(text, length, table->dialect.encoding);
+  }
+}
+
+// Makes room for the rows that are expected. Returns a text that says what is wrong, or NULL.
+static const char *make_room(double **value, size_t count, size_t *room, size_t rows,
+                             const SbTextTable *table, const SbTextTableLines *lines) {
+  // The bytes that are left, at the length of lines so far, are a good guess.
+  const double done = (double)sb_text_table_lines_place(lines), all = (double)table->bytes.length;
+  const double guess = *room == 0 ? 1024 : 1.05 * (double)rows * all / done + 16;
+  return *room == SB_TEXT_TABLE_ROWS_MAX ? "has too many rows"
+         : grow(value, count, room, (size_t)fmin(fmax(guess, (double)*room + 1024), 1e15))
+             ? NULL
+             : "there is no memory for its rows";
+}
+
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues) {
   *out = (SbTextTableRows){0};
@@ -48,6 +110,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     value[k] = NULL;
   }
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
+  double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableLines lines;
   const char *text, *wrong = NULL;
   size_t length, room = 0;
@@ -56,50 +119,14 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     if ((size_t)lines.number <= table->header_lines || length == 0 || *text == '#') {
       continue;
     }
-    SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-    const size_t cells = sb_text_table_split(cell, text, length, table->dialect.separator);
-    double row[SB_TEXT_TABLE_COLUMNS_MAX];
-    bool any = false, good = cells <= table->columns;
-    size_t unreadable = 0;
-    for (size_t k = 0; k < count && cells <= table->columns; k++) {
-      const size_t at = column[k];
-      SbTextTableClock clock;
-      row[k] = NAN;
-      if (at >= cells || cell[at].length == 0) {
-        continue;
-      }
-      bool read;
-      if (!table->column[at].clock) {
-        read = sb_text_table_number(&row[k], &cell[at], &table->dialect, NULL);
-      } else if ((read = sb_text_table_clock(&clock, &cell[at])) && good &&
-                 !add_days(&row[k], &days[k], &clock)) {
-        wrong = "is ambiguous: the date advances by a day or by a month, write it as "
-                "2026-02-03";
-      }
-      any |= read;
-      good &= read;
-      unreadable += !read;
-    }
-    if (!good || !any) {
-      const bool damaged = !good && (memchr(text, '\0', length) != NULL ||
-                                     (cells == table->columns && any && unreadable == 1));
-      out->damaged += damaged;
-      out->skipped += cells > 0 && !damaged;
-      if (cells > 0 && out->left_text == NULL) {
-        out->left_line = lines.number;
-        out->left_text = sb_text_table_utf8(text, length, table->dialect.encoding);
-      }
+    Line line;
+    wrong = read_line(&line, row, days, table, column, count, text, length);
+    if (!line.good || !line.any) {
+      leave_out(out, &line, table, &lines, text, length);
       continue;
     }
-    if (out->rows == room) {
-      // The bytes that are left, at the length of lines so far, are a good guess.
-      const double done = (double)sb_text_table_lines_place(&lines),
-                   all = (double)table->bytes.length;
-      const double guess = room == 0 ? 1024 : 1.05 * (double)out->rows * all / done + 16;
-      wrong = room == SB_TEXT_TABLE_ROWS_MAX ? "has too many rows"
-              : grow(value, count, &room, (size_t)fmin(fmax(guess, (double)room + 1024), 1e15))
-                  ? NULL
-                  : "there is no memory for its rows";
+    if (wrong == NULL && out->rows == room) {
+      wrong = make_room(value, count, &room, out->rows, table, &lines);
     }
     for (size_t k = 0; k < count && wrong == NULL; k++) {
       value[k][out->rows] = row[k];

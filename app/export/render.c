@@ -247,6 +247,25 @@ static void draw_page(cairo_t *cr, double width, double height, void *user) {
                  page->view, page->options->section, page->options->section_data);
 }
 
+// Returns models, errors and warnings for the file's own texts.
+static GString *comment_of(const SbChartRun *run, const SbSummary *summary,
+                           const SbRenderOptions *options) {
+  char models[256], errors[256];
+  const locale_t paused = sb_translation_pause();
+  sb_page_models_text(models, sizeof models, run);
+  sb_page_errors_text(errors, sizeof errors, run);
+  sb_translation_resume(paused);
+  GString *comment = g_string_new(NULL);
+  g_string_append_printf(comment, "Models: %s\nError estimates: %s", models, errors);
+  if (options->stale) {
+    g_string_append_printf(comment, "\nStale: %s", options->stale);
+  }
+  for (size_t i = 0; i < summary->warnings.count; i++) {
+    g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
+  }
+  return comment;
+}
+
 bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const char *path,
                      GError **error) {
   const SbRenderView *view = sb_render_view(options->view);
@@ -275,20 +294,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   sb_chart_run_init(&data.run, run, trace, sb_chart_state_of(summary));
   sb_render_compared_place(&data);
 
-  // Models, errors and warnings also go into the file's own texts.
-  char models[256], errors[256];
-  const locale_t paused = sb_translation_pause();
-  sb_page_models_text(models, sizeof models, &data.run);
-  sb_page_errors_text(errors, sizeof errors, &data.run);
-  sb_translation_resume(paused);
-  GString *comment = g_string_new(NULL);
-  g_string_append_printf(comment, "Models: %s\nError estimates: %s", models, errors);
-  if (options->stale) {
-    g_string_append_printf(comment, "\nStale: %s", options->stale);
-  }
-  for (size_t i = 0; i < summary->warnings.count; i++) {
-    g_string_append_printf(comment, "\nWarning: %s", summary->warnings.item[i].text);
-  }
+  g_autoptr(GString) comment = comment_of(&data.run, summary, options);
   Page page = {view, options, sb_theme(options->dark), &data,
                view->whole && !options->at ? SB_CHART_WHOLE : 0};
   SbStill still = {.width = options->width > 0 ? options->width : view->width,
@@ -302,7 +308,6 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                    .draw = draw_page,
                    .user = &page};
   bool good = sb_still_write(&still, path, error);
-  g_string_free(comment, TRUE);
   sb_render_compared_end(&compared);
   sb_trace_destroy(trace);
   return good;
