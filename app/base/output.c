@@ -344,8 +344,7 @@ static int rewrite(int old_fd, const struct stat *old, int fd) {
 // Gives a file without a name one; an errno.
 static int link_as(const SbOutput *out, const char *name) {
   g_autofree char *at = g_strdup_printf("/proc/self/fd/%d", fileno(out->stream));
-  int code = linkat(AT_FDCWD, at, out->folder, name, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
-  return code;
+  return linkat(AT_FDCWD, at, out->folder, name, AT_SYMLINK_FOLLOW) == 0 ? 0 : errno;
 }
 
 static int put_in_place(SbOutput *out) {

@@ -1,5 +1,5 @@
 // Reads and scans key files from anywhere: sizes are bounded before reading, devices and folders
-// refused, and every line that means nothing is told.
+// refused, and every line that cannot be read is an issue.
 #include "app/base/reader.h"
 
 #include "app/base/output.h"
@@ -139,7 +139,7 @@ typedef struct {
   GHashTable *seen; // headings "[group]" and keys "group.key"
   const char *shown;
   char *group; // NULL: none yet
-  bool skip;   // inside a group whose heading was no good
+  bool skip;   // inside a group with an invalid heading
 } Scan;
 
 static void take_heading(Scan *scan, const char *line, int number) {

@@ -1,6 +1,6 @@
-// What a table's file is: every dialect is tried on lines from its start, middle and end, the one
-// in which most lines are alike rows of numbers is taken, and two that do so with other values are
-// told. See table.h.
+// Recognises the format of a table: tries every dialect on lines from its start, middle and end,
+// and uses the one in which most lines are equivalent rows of numbers. Two dialects that fit
+// equally but give other values are an issue. See text_table.h.
 #include "app/base/text_table.h"
 
 #include "app/base/output.h"
@@ -66,8 +66,7 @@ char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding en
   for (size_t i = 0; i < length; i++) {
     g_string_append_unichar(out, (guchar)text[i]);
   }
-  char *printable = sb_printable(out->str, out->len);
-  return printable;
+  return sb_printable(out->str, out->len);
 }
 
 static void string_free(gpointer data) {

@@ -1,4 +1,4 @@
-// Lines of a table's bytes; see table_private.h.
+// Lines of a table's bytes; see text_table_private.h.
 #include "app/base/text_table_private.h"
 
 #include <errno.h>

@@ -1,4 +1,4 @@
-// Lines, cells and numbers of tables, shared by the files table*.c.
+// Lines, cells and numbers of tables, shared by the files text_table*.c.
 #pragma once
 
 #include "app/base/text_table.h"

@@ -1,11 +1,11 @@
-// Reads the rows of a table; see table.h.
+// Reads the rows of a table; see text_table.h.
 #include "app/base/text_table_private.h"
 
 #include <math.h>
 #include <string.h>
 
-// Seconds of clocks since the first row's midnight; a date that goes on without saying whether by a
-// day or by a month is told.
+// Converts times of day to seconds since midnight of the first row. add_days() returns false if it
+// is ambiguous whether a date advances by a day or by a month.
 typedef struct {
   bool begun;
   SbTextTableClock last;
@@ -41,15 +41,15 @@ static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
   return true;
 }
 
-// What the cells of a line are.
+// The cells of a line.
 typedef struct {
   size_t cells;
   bool any, good;    // a wanted cell has a number; all wanted cells do, or are empty
   size_t unreadable; // wanted cells that have none
 } Line;
 
-// Reads the wanted columns of a line to row[count]. Returns a text that says what is wrong with the
-// file, or NULL.
+// Reads the requested columns of a line to row[count]. Returns a static text that states what is
+// wrong with the file, or NULL.
 static const char *read_line(Line *out, double *row, Days *days, const SbTextTable *table,
                              const size_t *column, size_t count, const char *text, size_t length) {
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
@@ -77,7 +77,7 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
-// Counts a line that is left out, and keeps the first one.
+// Counts a line that is omitted, and stores the text of the first one.
 static void leave_out(SbTextTableRows *out, const Line *line, const SbTextTable *table,
                       const SbTextTableLines *lines, const char *text, size_t length) {
   const bool damaged =
@@ -91,7 +91,8 @@ static void leave_out(SbTextTableRows *out, const Line *line, const SbTextTable 
   }
 }
 
-// Makes room for the rows that are expected. Returns a text that says what is wrong, or NULL.
+// Makes room for the rows that are expected. Returns a static text that states what is wrong, or
+// NULL.
 static const char *make_room(double **value, size_t count, size_t *room, size_t rows,
                              const SbTextTable *table, const SbTextTableLines *lines) {
   // The bytes that are left, at the length of lines so far, are a good guess.

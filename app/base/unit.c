@@ -173,8 +173,7 @@ static double read_decimal(const char *text, size_t exponent_at, size_t length, 
   }
   exponent = CLAMP(exponent, -100000, 100000) + power;
   g_autofree char *moved = g_strdup_printf("%.*se%ld", (int)exponent_at, text, exponent);
-  double value = g_ascii_strtod(moved, NULL);
-  return value;
+  return g_ascii_strtod(moved, NULL);
 }
 
 static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);

@@ -64,7 +64,8 @@ static bool take_common(const char *progress) {
   return true;
 }
 
-// Keeps the values of options until the program ends, so that no command frees them.
+// Stores the values of options until the program ends: no command frees them, and leak checkers
+// find them.
 static void keep_texts(const GOptionEntry *entry) {
   static GPtrArray *kept;
   if (kept == NULL) {
@@ -107,7 +108,8 @@ bool sb_cli_quiet(void) {
   return common.quiet;
 }
 
-// Removes a "--" before the operands, and whether their number is in [least, most]: prints it.
+// Removes a "--" before the operands. Returns whether their number is in [least, most]; false with
+// a message.
 static bool has_operands(int *argc, char **argv, int least, int most, const SbCommand *command) {
   // A "--" that separates operands stays in argv.
   if (*argc > 1 && strcmp(argv[1], "--") == 0) {

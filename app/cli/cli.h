@@ -410,7 +410,7 @@ typedef struct {
 } SbCliStudyOptions;
 
 // Parses -o, --jobs, --set, --json and one operand, as sb_cli_parse(); `folder_help` is the help of
-// -o. Returns false with a message. Clear the options in any case.
+// -o. Returns false with a message.
 bool sb_cli_study_parse(SbCliStudyOptions *out, int *argc, char ***argv, const char *folder_help);
 
 // The work of such a command.

@@ -58,9 +58,9 @@ static void print_table(const SbStudyFile *study, const SbCalibration *of) {
     g_autofree char *low = value_text(one, one->interval[0]);
     g_autofree char *high = value_text(one, one->interval[1]);
     g_autofree char *interval = g_strdup_printf("%s to %s", low, high);
-    static const char *const told[] = {"yes", "only with another", "no, as before"};
+    static const char *const identifiable[] = {"yes", "only with another", "no, as before"};
     printf("  %-36s%-8s%11s%11s  %-24s%s\n", one->name, sb_param(one->id)->unit, before, estimate,
-           interval, of->samples > 0 ? told[one->identifiable] : "-");
+           interval, of->samples > 0 ? identifiable[one->identifiable] : "-");
   }
   print_modes_outside(of);
   for (size_t c = 0; c < of->curves; c++) {

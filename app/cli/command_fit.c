@@ -220,7 +220,7 @@ static int solve_and_show(SbFitProblem *problem, int index, const Options *optio
   int code = sb_cli_status(status, &job.report);
   sb_model_warn(model, &fit->warnings);
 
-  // Design read-outs of the gland; a gasket lies in none.
+  // Design read-outs of the gland; a gasket has no gland.
   SbGland gland;
   SbGlandReadout readouts[SB_GLAND_COUNT];
   SbReport report = {0};

@@ -274,8 +274,8 @@ static SbStatus compute(SbRun **run, const SbModel *model, const SbRenderView *v
   return sb_cli_compute(run, model, &plan, "computing ", report);
 }
 
-// Computes the first kept designs where the view shows them, and notes those that it leaves out. An
-// exit code; what cannot be computed is told and left out.
+// Computes the first saved designs if the view shows them, and prints a note on those that it
+// omits. A design that cannot be computed is reported and omitted. Returns an exit code.
 static int compute_pins(Pins *pins, const SbDocument *document, Request *request) {
   const size_t count = sb_document_pin_count(document);
   SbRenderOptions *how = &request->how;
@@ -343,8 +343,7 @@ static char *file_names(const SbDocument *document) {
   const char *path = sb_document_path(document), *valve_path = sb_document_valve_path(document);
   g_autofree char *own = path != NULL ? g_path_get_basename(path) : g_strdup("");
   g_autofree char *valve = valve_path != NULL ? g_path_get_basename(valve_path) : NULL;
-  char *names = valve != NULL ? g_strdup_printf("%s  \xc2\xb7  %s", valve, own) : g_strdup(own);
-  return names;
+  return valve != NULL ? g_strdup_printf("%s  \xc2\xb7  %s", valve, own) : g_strdup(own);
 }
 
 // Takes folders that a failure left empty away again: nothing was written.
@@ -442,7 +441,7 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
   return code;
 }
 
-// What cannot be written is told before the work.
+// Checks before the work whether all outputs can be written. Returns an exit code.
 static int check_outputs(const SbCliFiles *files, void *data) {
   const Request *request = data;
   const char *output = request->options->output;

@@ -11,7 +11,7 @@ typedef struct {
   gboolean all;
 } Options;
 
-// Whether all that will be written can be: told before the work, not after it. An exit code.
+// Checks before the work whether all outputs can be written. Returns an exit code.
 static int check_outputs(const SbCliFiles *files, void *data) {
   const Options *options = data;
   g_autoptr(GPtrArray) all = g_ptr_array_new_with_free_func(g_free);

@@ -114,10 +114,10 @@ static void print_figure(const SbGradient *gradient, size_t figure, const SbMode
   if (count > ROWS) {
     printf("  and %zu parameters of less effect: --json\n", count - ROWS);
   }
-  for (size_t i = 0, told = 0; i < parameters; i++) {
+  for (size_t i = 0, printed = 0; i < parameters; i++) {
     const char *why = sb_gradient_reason(gradient, figure, i);
     // A parameter without another value is one that the model does not have.
-    if (why != NULL && !sb_gradient_is_fixed(gradient, figure, i) && told++ < ROWS) {
+    if (why != NULL && !sb_gradient_is_fixed(gradient, figure, i) && printed++ < ROWS) {
       printf("  %-34s no derivative: %s\n", sb_param(sb_gradient_parameter(gradient, i))->key, why);
     }
   }

@@ -175,7 +175,8 @@ static void free_job(void *data) {
   g_free(job);
 }
 
-// Names that are meant; false, told, for one that there is not.
+// Adds a job for the item `name`, or for all items if it is NULL. Returns false with a message if
+// there is no such item.
 static bool take_names(Work *work, char **items, const char *name) {
   g_autoptr(GString) names = g_string_new(NULL);
   for (char **item = items; *item != NULL; item += 2) {

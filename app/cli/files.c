@@ -45,8 +45,8 @@ static int refuse_twins(const SbCliFiles *files, bool in_folders) {
   return SB_EXIT_DONE;
 }
 
-// Opens the operands; false if no file is sound, or they cannot be told apart: files->code is then
-// the exit code.
+// Opens the operands. Returns false if no file is sound or two would be written to one place;
+// files->code is then the exit code.
 static bool open_files(SbCliFiles *files, int argc, char **argv, char **settings,
                        const char *folder) {
   *files = (SbCliFiles){.count = argc - 1, .at = -1};

@@ -147,8 +147,8 @@ static int solve(const SbStudyFile *study, const SbCliAsk *ask, SbStore *store, 
   int code = SB_EXIT_DONE;
   if (!good) {
     code = error->code == SB_APP_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED : SB_EXIT_DONE;
-    const int told = sb_cli_error(error);
-    code = code == SB_EXIT_INTERRUPTED ? code : told;
+    const int failed = sb_cli_error(error);
+    code = code == SB_EXIT_INTERRUPTED ? code : failed;
   }
   if (answers.computed > 0) {
     sb_cli_note("%zu samples in %.3g s, %.3g a second", answers.computed, answers.seconds,
@@ -213,8 +213,8 @@ int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered a
   }
   error = NULL;
   if (!sb_store_close(store, &error)) {
-    const int told = sb_cli_error(error);
-    code = MAX(code, told);
+    const int failed = sb_cli_error(error);
+    code = MAX(code, failed);
   }
   sb_reliability_release(&reliability);
   free(value);

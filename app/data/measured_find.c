@@ -39,8 +39,7 @@ static double median_force(const SbMeasured *m, size_t begin, size_t end, double
       value[count++] = m->force[i];
     }
   }
-  const double result = median(value, count);
-  return result;
+  return median(value, count);
 }
 
 static void range_of(double *low, double *high, const double *value, size_t count) {

@@ -385,8 +385,7 @@ static char *hash_scene(const SbDocument *scene) {
                            rubber->figure[i].fluid,
                            sb_number_format(digits, rubber->figure[i].value));
   }
-  char *hash = g_compute_checksum_for_string(G_CHECKSUM_SHA256, text->str, -1);
-  return hash;
+  return g_compute_checksum_for_string(G_CHECKSUM_SHA256, text->str, -1);
 }
 
 // The scene as a model, and what tells it from every other.

@@ -178,7 +178,7 @@ static char *value_text(const SbCalibrated *of, double value, bool unit) {
   return g_strconcat(text, unit && *param->unit != '\0' ? " " : "", unit ? param->unit : "", NULL);
 }
 
-static char *told_text(const SbCalibration *of, size_t j) {
+static char *identifiable_text(const SbCalibration *of, size_t j) {
   const SbCalibrated *one = &of->parameter[j];
   if (of->samples == 0) {
     return g_strdup("-");
@@ -201,7 +201,7 @@ static void fill_row(SbCalibrationRow *row, GPtrArray *texts, const SbCalibratio
   g_autofree char *low = value_text(one, one->interval[0], false);
   g_autofree char *high = value_text(one, one->interval[1], false);
   char *const own[] = {value_text(one, one->before, true), value_text(one, one->estimate, false),
-                       g_strdup_printf("%s to %s", low, high), told_text(of, j)};
+                       g_strdup_printf("%s to %s", low, high), identifiable_text(of, j)};
   for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
     g_ptr_array_add(texts, own[i]);
   }

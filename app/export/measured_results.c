@@ -74,17 +74,17 @@ SbTable *sb_measured_stages(const SbComparison *comparison) {
   SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
     const SbMeasuredStage *stage = &comparison->measured->stage[s];
-    const double none = stage->found ? 0 : NAN, model = comparison->model_force[s];
+    const bool found = stage->found;
+    const double force = found ? stage->force : NAN, model = comparison->model_force[s];
     const char *name = sb_stage_name((SbStage)s);
     g_autofree char *label = g_strdup_printf("Stage %s", name);
-    sb_table_add(table,
-                 SB_CELLS(sb_cell_text_as(name, label),
-                          sb_cell_quantity(none + stage->force, "N", "N", 4),
-                          sb_cell_quantity(model, "N", "N", 4),
-                          sb_cell_quantity(none + stage->force - model, "N", "N", 4),
-                          sb_cell_number(none + stage->displacement),
-                          sb_cell_number(comparison->model_displacement[s]),
-                          sb_cell_number(none + stage->deviation), sb_cell_text(stage->reason)));
+    sb_table_add(table, SB_CELLS(sb_cell_text_as(name, label), sb_cell_quantity(force, "N", "N", 4),
+                                 sb_cell_quantity(model, "N", "N", 4),
+                                 sb_cell_quantity(force - model, "N", "N", 4),
+                                 sb_cell_number(found ? stage->displacement : NAN),
+                                 sb_cell_number(comparison->model_displacement[s]),
+                                 sb_cell_number(found ? stage->deviation : NAN),
+                                 sb_cell_text(stage->reason)));
   }
   return table;
 }

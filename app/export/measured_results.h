@@ -9,8 +9,8 @@
 // Writes the object `key`: differences between measurement and run, how the file was read, stages.
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);
 
-// Returns the stages B to F of the measured loop and of the model, for people and as members by
-// their names. Freed by sb_table_free().
+// Returns the table of the stages B to F, measured and computed; in JSON each stage is a member
+// named by its letter. Freed by sb_table_free().
 SbTable *sb_measured_stages(const SbComparison *comparison);
 
 // Writes the object "stages": for the stages B to F the measured and computed force and

@@ -122,8 +122,8 @@ static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument
   }
 }
 
-// Whether a parameter stands in the table of inputs rather than among the defaults.
-static bool is_told(const SbModel *model, const SbParams *params, SbParamId id) {
+// Returns whether a parameter is in the table of inputs rather than among the defaults.
+static bool is_listed(const SbModel *model, const SbParams *params, SbParamId id) {
   SbParamDefault follows;
   const SbParamGroup group = sb_param_group(id);
   if (sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_BODIES &&
@@ -151,7 +151,7 @@ static void draw_defaults(SbReportPages *pages, const SbModel *model, const SbPa
   g_autofree char *left = NULL;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    if (!is_input((SbParamId)i) || param->parent >= 0 || is_told(model, params, (SbParamId)i)) {
+    if (!is_input((SbParamId)i) || param->parent >= 0 || is_listed(model, params, (SbParamId)i)) {
       continue;
     }
     g_autofree char *value = value_of(model, (SbParamId)i);
@@ -187,7 +187,7 @@ void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const Sb
   for (int first = 0; first < SB_PARAM_COUNT; first++) {
     bool named = false;
     for (int i = first; i < SB_PARAM_COUNT; i++) {
-      if (done[i] || !is_input((SbParamId)i) || !is_told(model, &params, (SbParamId)i) ||
+      if (done[i] || !is_input((SbParamId)i) || !is_listed(model, &params, (SbParamId)i) ||
           (named && sb_param_group((SbParamId)i) != group)) {
         continue;
       }

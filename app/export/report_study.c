@@ -536,7 +536,7 @@ static void draw_samples(SbReportPages *pages, const Study *study) {
 
 static void draw_failures(SbReportPages *pages, const Study *study) {
   enum { MOST = 12 };
-  size_t told = 0;
+  size_t shown = 0;
   if (sb_study_failed(study->answers) == 0) {
     return;
   }
@@ -545,14 +545,14 @@ static void draw_failures(SbReportPages *pages, const Study *study) {
                                            {"Reason", 7, SB_REPORT_WORDS}};
   SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   sb_report_heading(pages, "Samples without an answer", 60);
-  for (size_t i = 0; i < study->answers->samples && told < MOST; i++) {
+  for (size_t i = 0; i < study->answers->samples && shown < MOST; i++) {
     const uint8_t status = study->answers->status[i];
     if (status != SB_OK && status != SB_ANSWER_MISSING) {
       g_autofree char *number = g_strdup_printf("%zu", i + 1);
       const char *reason = g_hash_table_lookup(study->answers->reason, GSIZE_TO_POINTER(i));
       const char *const cell[] = {number, sb_study_status_name(status), reason};
       sb_report_row(pages, &table, cell, SB_REPORT_DOUBT);
-      told++;
+      shown++;
     }
   }
 }

@@ -330,26 +330,26 @@ static void put_escaped(FILE *stream, const char *text) {
   fputs(escaped, stream);
 }
 
-// How the rows of an item stand, in words: "7 agree, 2 explained".
+// Writes how many rows of an item have each verdict: "7 agree, 2 explained".
 static void put_counts(FILE *stream, const SbThesisItem *item) {
   static const struct {
     SbThesisVerdict verdict;
     const char *words;
-  } told[] = {{SB_THESIS_AGREES, "agree"},
-              {SB_THESIS_EXPLAINED, "explained"},
-              {SB_THESIS_BOUNDED, "within bounds"},
-              {SB_THESIS_PARTLY, "partly explained"},
-              {SB_THESIS_NOT_PRINTED, "not printed"},
-              {SB_THESIS_NOT_COMPUTED, "not computed"},
-              {SB_THESIS_FAILS, "without a reason"}};
+  } states[] = {{SB_THESIS_AGREES, "agree"},
+                {SB_THESIS_EXPLAINED, "explained"},
+                {SB_THESIS_BOUNDED, "within bounds"},
+                {SB_THESIS_PARTLY, "partly explained"},
+                {SB_THESIS_NOT_PRINTED, "not printed"},
+                {SB_THESIS_NOT_COMPUTED, "not computed"},
+                {SB_THESIS_FAILS, "without a reason"}};
   bool any = false;
-  for (size_t i = 0; i < G_N_ELEMENTS(told); i++) {
+  for (size_t i = 0; i < G_N_ELEMENTS(states); i++) {
     guint count = 0;
     for (guint k = 0; k < item->rows->len; k++) {
-      count += ((SbThesisRow *)item->rows->pdata[k])->verdict == told[i].verdict;
+      count += ((SbThesisRow *)item->rows->pdata[k])->verdict == states[i].verdict;
     }
     if (count > 0) {
-      fprintf(stream, "%s%u %s", any ? ", " : "", count, told[i].words);
+      fprintf(stream, "%s%u %s", any ? ", " : "", count, states[i].words);
       any = true;
     }
   }

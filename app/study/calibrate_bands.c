@@ -71,7 +71,8 @@ bool sb_calibrate_draws(SbCalibration *out, Work *work, const SbInference *found
   const size_t draws = out->tangent ? SB_CALIBRATION_CHECKS : BAND_DRAWS;
   const size_t n = work->coordinates;
   g_autofree double *force = g_new(double, draw_place(work->curves, 0, 0));
-  g_autofree double *residual = g_new(double, work->residuals + 1), square = 0, count = 0;
+  g_autofree double *residual = g_new(double, work->residuals + 1);
+  double square = 0, count = 0;
   g_autofree SbMeasuredBand *band = g_new(SbMeasuredBand, work->curves);
   for (size_t c = 0; c < work->curves; c++) {
     band[c].end = 0;

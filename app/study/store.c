@@ -339,7 +339,11 @@ bool sb_store_set_list(SbStore *store, const char *const *parameters, const char
   store->parameters = g_strv_length((char **)parameters);
   store->figures = g_strv_length((char **)figures);
   // A store that is only read receives the list when it is written.
-  return !store->writable || (sb_store_begin(store, error) && write_list(store, error));
+  if (store->writable && !(sb_store_begin(store, error) && write_list(store, error))) {
+    g_clear_pointer(&store->parameter_names, g_free); // the next call writes it
+    return false;
+  }
+  return true;
 }
 
 // ---- Changes ----

@@ -1,3 +1,4 @@
+// A table of results and its outputs; see the header.
 #include "app/table/table.h"
 
 #include "app/base/unit.h"

@@ -73,6 +73,18 @@ static void test_json(void) {
       "{\"name\":\"d\",\"length_m\":5}]");
 }
 
+static void test_members(void) {
+  static const SbTableColumn named[] = {{.layout = "%s"}, {.key = "force_N"}};
+  g_autoptr(SbTable) table = sb_table_new(named, G_N_ELEMENTS(named));
+  sb_table_add(table, SB_CELLS(sb_cell_text_as("B", "Stage B"), sb_cell_number(2)));
+  sb_table_note(table, "a note is in no file");
+  SbJson json;
+  sb_json_init(&json);
+  sb_table_json(&json, NULL, table);
+  g_autofree char *text = sb_json_finish(&json);
+  g_assert_cmpstr(text, ==, "{\n  \"B\": {\n    \"force_N\": 2\n  }\n}\n");
+}
+
 static void test_pages(void) {
   g_autoptr(SbTable) table = make_table();
   g_autofree char *html = sb_table_html(table), *markdown = sb_table_markdown(table);
@@ -90,6 +102,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/table/text", test_text);
   g_test_add_func("/table/csv", test_csv);
   g_test_add_func("/table/json", test_json);
+  g_test_add_func("/table/members", test_members);
   g_test_add_func("/table/pages", test_pages);
   return g_test_run();
 }
