@@ -27,7 +27,7 @@ ALLOWED = {
 COLUMN = re.compile(r'\b(?:figure|row|param|column|axis|series|view|sb_(?:figure|param)\([^)]*\))'
                     r'(?:\[\w+\])?(?:->|\.)(?:path|key|si|shown|unit|tag|where|name|quantity|view)\b|'
                     r'\brequest(?:->|\.)view\b')
-MESSAGE = re.compile(r'(?:->|\.)(?:text|message|parameter)\b(?!\[)|'
+MESSAGE = re.compile(r'(?:->|\.)(?:text|message)\b(?!\[)|'
                      r'\bsb_\w*(?:reason|error|failure)\(|^\s*(?:why|reason|cause|message)\b')
 
 

@@ -140,10 +140,10 @@ def sources_of_the_loop(source):
 
 # A choice of params.def that code compares.
 CHOICE = re.compile(r'([!=<>]=|[<>]|\bcase) *SB_(FIT|FILM)_(KARASZKIEWICZ|HERTZ|LINDLEY|GREEN_ENGLISH|DISC|DISC_THESIS|RING|'
-                    r'THESIS|ASYMPTOTIC|REYNOLDS|INVERSE|MOES|RIGID)\b(?! *[,}])')
+                    r'THESIS|ASYMPTOTIC|REYNOLDS|INVERSE|MOES|RIGID)\b')
 CHOICES = ['if (model->fit == SB_FIT_RING) {', '  case SB_FILM_MOES:', 'fit < SB_FIT_DISC_THESIS && solved',
-           'film->model != SB_FILM_REYNOLDS ||']
-# Decisions by the text of a figure's columns: figures.def has enumerations for them.
+           'film->model != SB_FILM_REYNOLDS ||', 'cost(model->fit == SB_FIT_RING, model)']
+# Comparisons of a figure's columns, also with a variable (decisions.py: with a literal, in all layers).
 FIGURE_TEXT = re.compile(r'\bstr(?:n?cmp|str|n?casecmp)\([^;]*(?:->|\b)(?:path|si|shown|where)\b')
 
 

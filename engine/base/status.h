@@ -128,7 +128,9 @@ typedef struct {
   char subject[16]; // part that the warning is about, "inner seal"; "" if there is only one
 } SbWarning;
 
-// A list of warnings without duplicates (equal code, input and subject). It owns its texts.
+// A list of warnings without duplicates (equal code, input and subject). Numbers of inputs are
+// compared as they are: a warning that several rooms give has the same number in all of them. It
+// owns its texts.
 // Initialise with {0}; nothing has to be freed.
 typedef struct {
   const char *subject; // subject of warnings that are added next, borrowed; NULL: none

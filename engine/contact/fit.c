@@ -10,12 +10,12 @@
 #include "engine/contact/closed_forms.h"
 #include "engine/contact/fit_models.h"
 
-// The place of the contact's ends does not fall with the mesh below that.
+// Typical estimates. At small tolerances the error of the positions of the contact's ends remains.
 static double ring_load_error(double tolerance) {
   return fmax(0.3 * fmin(tolerance, 3e-3), 2.7e-4);
 }
 
-// Its nodes are a degree apart.
+// Does not depend on the tolerance: its nodes are always a degree apart.
 static double thesis_load_error(double tolerance) {
   return 4e-3;
 }

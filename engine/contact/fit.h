@@ -52,7 +52,7 @@ typedef enum {
 // What a model computes.
 typedef struct {
   const char *name; // of the choice of models.fit: "disc-thesis"
-  bool section;     // solves the deformed section: of any shape, with the groove's walls, dragged
+  bool section;     // solves the section's deformation: any profile, groove walls, friction
   bool body;        // gives the surface of the fitted body, on which films are solved
   bool points;      // computes the pressure at points, within a tolerance; else by a formula
   bool fluid;       // its load includes the fluid's pressure difference
@@ -61,7 +61,8 @@ typedef struct {
 // Returns what a model computes; static. NULL for an invalid one.
 const SbFitKind *sb_fit_kind(SbFitModel model);
 
-// Returns the typical relative error estimate of a model's load at a tolerance (0 to 1); 0: exact.
+// Returns the typical relative error estimate of a valid model's load at a tolerance (0 to 1); 0:
+// exact.
 double sb_fit_load_error(SbFitModel model, double tolerance);
 
 // Finds a model by name. Returns false if there is none; *out is unchanged then.

@@ -3,7 +3,7 @@
 
 #include <math.h>
 
-// The toleranced sizes: catalogue key, value and half-width of the tolerance band.
+// The toleranced sizes: number of the input, value and half-width of the tolerance band.
 static const struct {
   int input;
   size_t value, tolerance;

@@ -448,8 +448,9 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
     return sb_fail(report, status, "cancelled");
   }
   if (status == SB_ERROR_INFEASIBLE) {
-    return sb_fail(report, status,
-                   "a starved inlet together with a cavity before a flooded outlet");
+    return sb_fail_input(report, status, SB_FILM_IN_INLET,
+                         "no film has a starved inlet together with a cavity before a flooded "
+                         "outlet; a flooded inlet has one");
   }
   if (status != SB_OK) {
     status = sb_fail(report, status, "Newton's method stopped at residual %.2g, degree %d",

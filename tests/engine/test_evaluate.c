@@ -281,7 +281,7 @@ static void test_stands(void) {
   SbModel base = base_model();
   SbOverride all[CHANGED + 1];
   int figure[SB_FIGURE_COUNT];
-  size_t stood = 0;
+  size_t stood = 0, entered = 0;
   memcpy(all, change, sizeof change);
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     figure[i] = i;
@@ -309,6 +309,7 @@ static void test_stands(void) {
     g_assert_cmpint(sb_evaluator_ask(value, evaluator, &first, NULL), ==, SB_OK);
     const bool stands = sb_evaluator_has_solved(evaluator, &question);
     stood += stands;
+    entered += enters(param->key);
     // One of a later stage leaves the contacts; those of earlier stages do not, unless the model
     // has switched them off.
     if (param->stage > SB_ENTERS_FRICTION ? !stands : stands && enters(param->key)) {
@@ -323,6 +324,7 @@ static void test_stands(void) {
   }
   g_test_message("the contacts stand for %zu parameters", stood);
   g_assert_cmpuint(stood, >, 80);
+  g_assert_cmpuint(entered, ==, 12); // each key of enters() was asked
   sb_evaluator_destroy(other);
   sb_evaluator_destroy(evaluator);
 }

@@ -89,8 +89,6 @@ static void test_paths(void) {
   g_free(summary);
 }
 
-// A ring that does not reach the bore under pressure: open, and no leak of 0. The shelf's error has
-// the reason of the shelf's loss.
 // The group is that of the path; error estimates of solvers are a group.
 static void test_groups(void) {
   static const char *const beginnings[] = {
@@ -116,6 +114,8 @@ static void test_groups(void) {
   }
 }
 
+// A ring that does not reach the bore under pressure: open, and no leak of 0. The shelf's error has
+// the reason of the shelf's loss.
 static void test_open(void) {
   const Setting changes[] = {{SB_P_MODELS_FIT, SB_FIT_DISC},
                              {SB_P_GLAND_RADIAL_SPACE, 1.57e-3},

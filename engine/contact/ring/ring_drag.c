@@ -168,7 +168,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double unit, now, still = bore_load(ring->contact, &drag, &unit);
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
-  bool crossed = false;                           // the groove, to the wall
+  bool crossed = false;                           // the ring was moved to the wall
   ring->state = SB_RING_SLIDES;
   ring->passing = true;
   while (ring->contact->is.now.friction_bore < aim) {
@@ -192,9 +192,9 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       if (detaches && (length < DETACHED_LEAST || spent)) {
         return end_at_limit(ring, SB_RING_ROLLS, most, limit);
       }
-      // The drag has reached the friction of the floor, and no wall carries the ring: a higher drag
-      // has no state here. The ring slides through its groove, with its shape unchanged, to the
-      // wall.
+      // No wall carries the ring: if the drag has reached the friction of the floor, a higher drag
+      // has no state here. The ring is moved through its groove to the wall once, with its shape
+      // unchanged, and the path continues there.
       if (length < ARC_LEAST && !spent && !crossed && sb_ring_rest_on_wall(ring)) {
         crossed = true;
         length = ARC;

@@ -41,8 +41,9 @@ static bool same_rings(const SbSealModel *a, const SbSealModel *b) {
          a->poisson_ratio == b->poisson_ratio && a->mooney_share == b->mooney_share;
 }
 
-// Whether a parameter of this stage enters the seals' steady states as it is, not by values that
-// the model derives. Choices and numbers of things decide the plan and its memory too.
+// Whether parameters of `stage` are compared: those up to the stage `last`, except those of RUBBER
+// and FLUID, which enter by values that the model derives. Real numbers count up to FRICTION.
+// Choices and integers count up to LIFE, because they also decide the plan and its memory.
 #define ENTERS(stage, last)                                                                        \
   (SB_ENTERS_##stage <= SB_ENTERS_##last && SB_ENTERS_##stage != SB_ENTERS_RUBBER &&               \
    SB_ENTERS_##stage != SB_ENTERS_FLUID)

@@ -32,7 +32,7 @@ static const struct {
            {SB_CONTACT_IN_DRAG, SB_P_FRICTION_LOAD_COEFFICIENT},
            {SB_CONTACT_IN_MODEL, SB_P_MODELS_FIT},
            {SB_CONTACT_IN_PROFILE, SB_P_SEAL_PROFILE},
-           {SB_CONTACT_IN_DRAWING, SB_PARAM_COUNT},
+           {SB_CONTACT_IN_DRAWING, SB_INPUT_SECTION_FILE - SB_VALVE_INPUTS},
            {SB_CONTACT_IN_AXIAL_HEIGHT, SB_P_SEAL_AXIAL_HEIGHT},
            {SB_CONTACT_IN_CORNER_RADIUS, SB_P_SEAL_CORNER_RADIUS},
            {SB_CONTACT_IN_VALLEY_DEPTH, SB_P_SEAL_VALLEY_DEPTH},
@@ -60,6 +60,7 @@ static const struct {
            {SB_FILM_IN_WORK_OF_ADHESION, SB_P_SURFACE_WORK_OF_ADHESION},
            {SB_FILM_IN_SHEAR_STRENGTH, SB_P_FRICTION_SHEAR_STRENGTH},
            {SB_FILM_IN_LOAD_COEFFICIENT, SB_P_FRICTION_LOAD_COEFFICIENT},
+           {SB_FILM_IN_INLET, SB_P_MODELS_INLET},
            {SB_FILM_IN_MODEL, SB_P_MODELS_FILM},
            {SB_RUBBER_IN_RING, SB_P_SEAL_SECTION_DIAMETER},
            {SB_RUBBER_IN_STORAGE_TIME, SB_P_STORAGE_TIME},
@@ -76,8 +77,12 @@ static const struct {
            {SB_MECHANISM_IN_STATIC_RATIO, SB_P_FRICTION_STATIC_RATIO},
            {SB_MECHANISM_IN_DRIVE, SB_P_DRIVE_STIFFNESS}};
 
-static const char *const file[] = {"seal.profile_file", "gland.profile_file", "drive.file",
-                                   "shelf.file"};
+#define FILE_AT(input) [(input)-SB_INPUT_SECTION_FILE]
+static const char *const file[] = {FILE_AT(SB_INPUT_SECTION_FILE) = "seal.profile_file",
+                                   FILE_AT(SB_INPUT_GROOVE_FILE) = "gland.profile_file",
+                                   FILE_AT(SB_INPUT_DRIVE_FILE) = "drive.file",
+                                   FILE_AT(SB_INPUT_SHELF_FILE) = "shelf.file"};
+#undef FILE_AT
 _Static_assert(sizeof file / sizeof file[0] == SB_INPUT_END - SB_INPUT_SECTION_FILE, "files");
 
 int sb_input_resolve(int input) {

@@ -135,8 +135,8 @@ static inline int sb_input(SbParamId id) {
   return SB_VALVE_INPUTS + (int)id;
 }
 
-// Returns the number of the valve's input that gives the input of a room below the valve its value;
-// any other number unchanged.
+// Maps the number of an input of a room below the valve to that of the valve's input. Returns any
+// other number unchanged.
 int sb_input_resolve(int input);
 
 // Returns the SbParamId of an input of the valve or of a room below it; -1 if it is none.

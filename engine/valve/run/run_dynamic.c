@@ -408,7 +408,7 @@ static void lose_errors(SbRun *run, const SbReport *why) {
           "the motion's error is not known: %s", why->text);
 }
 
-// Up to this tolerance motions that only measure an error are integrated.
+// Returns the tolerance of the motions that only measure an error.
 static double coarse_of(double tolerance) {
   return fmax(tolerance, fmin(10 * tolerance, 1e-5));
 }

@@ -72,8 +72,8 @@ static void report_open(SbRun *run, int seal, bool touches) {
           sb_seal_name(seal));
 }
 
-// Solves the percolation of a contact with the real area out->rest_area_share. `problem` has the
-// contact pressure, which would cause this area if it were uniform.
+// Solves the percolation of a contact with the real area out->rest_area_share. Sets *problem; its
+// contact_pressure is the uniform pressure that would cause this area.
 static SbStatus percolate(SbPercolation *leak, SbPercolationProblem *problem, const SbRun *run,
                           int seal, const SbSealState *out, SbReport *report) {
   const SbModel *model = run->model;
@@ -379,7 +379,7 @@ static void give_reasons_of_outcome(SbRun *run) {
   }
 }
 
-// Why figures of a seal are missing. `closed`: its film is a closed form.
+// Sets why figures of a seal are missing. `closed`: its film is a closed form.
 static void give_reasons_of_seal(SbSummary *summary, const SbModel *model, int seal, bool closed) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool done = !isnan(summary->seal[seal].load); // else the run ended before
@@ -412,7 +412,7 @@ static void give_reasons_of_seal(SbSummary *summary, const SbModel *model, int s
   give(summary, seal, reasons, sizeof reasons / sizeof reasons[0]);
 }
 
-// Why figures of the full run are missing; `well`: it did not fail.
+// Sets why figures of the full run are missing; `well`: it did not fail.
 static void give_reasons_of_run(SbRun *run, bool well) {
   SbSummary *summary = &run->summary;
   const SbModel *model = run->model;

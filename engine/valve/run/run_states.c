@@ -411,8 +411,12 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   sb_sliding_memory_destroy(ahead);
   if (status == SB_ERROR_NOT_CONVERGED) {
     report_failure(of, report);
-  } else if (status != SB_OK) {
+  } else if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     return status;
+  } else if (status != SB_OK) {
+    const SbReport cause = *report;
+    return sb_fail_input(report, status, sb_input_resolve(cause.input), "%s seal: %s",
+                         sb_seal_name(of->seal), cause.text);
   } else if (!fitment && of->motion != SB_RUN_REST && !isfinite(sb_sliding_friction(state)) &&
              lane->lacks.status == SB_OK) {
     (void)sb_fail(&lane->lacks, SB_ERROR_INFEASIBLE,
