@@ -218,8 +218,7 @@ static void append_group(GString *text, const SbParams *params, const char *grou
 }
 
 // Appends a part's shape to the group whose first parameter is `first`, unless a size that is in
-// force differs from it: beside a shape in one file that would be an error, and the numbers are
-// what counts.
+// force differs from it: a file with both would be refused, and the numbers take precedence.
 static void append_shape(GString *text, const SbDocument *document, SbParamId first) {
   const SbShapes *shapes = document->shapes;
   for (guint i = 0; i < shapes->sizes->len; i++) {

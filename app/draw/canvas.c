@@ -123,10 +123,7 @@ double sb_canvas_text(SbCanvas *canvas, const char *text, const SbTextStyle *sty
                       double y, SbAlign align) {
   shape(canvas, text, style);
   double width = advance(canvas);
-  sb_canvas_color(canvas, style->color, alpha_of(style));
-  place(canvas, x + align_offset(align, width), y);
-  pango_cairo_show_layout(canvas->cr, canvas->layout);
-  cairo_new_path(canvas->cr);
+  show(canvas, style, x + align_offset(align, width), y);
   return width;
 }
 

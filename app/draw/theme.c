@@ -1,5 +1,5 @@
-// The look's table of roles and its maps, computed from their formulas in OKLCh. No state: both
-// themes are made once at compile time from hexadecimal codes and widened on first use.
+// The table of colour roles, and the colour maps by formulas in OKLCh. Both themes are filled from
+// the hexadecimal codes at the first use (pthread_once) and are constant afterwards.
 #include "app/draw/theme.h"
 
 #include <math.h>

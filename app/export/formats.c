@@ -10,7 +10,7 @@ static const SbExportFormat formats[] = {
     {".png", N_("Picture, PNG"), SB_FORMAT_PICTURE, 0},
     {".svg", N_("Drawing, SVG"), SB_FORMAT_DRAWING, 0},
     {".pdf", N_("Drawing, PDF"), SB_FORMAT_DRAWING, 0},
-    {".mp4", N_("Film, MP4"), SB_FORMAT_FILM, SB_MOVIE_MP4},
+    {".mp4", N_("Movie, MP4"), SB_FORMAT_FILM, SB_MOVIE_MP4},
     {".webp", N_("Animation, WebP"), SB_FORMAT_FILM, SB_MOVIE_WEBP},
     {".apng", N_("Animation, APNG"), SB_FORMAT_FILM, SB_MOVIE_APNG},
     {".gif", N_("Animation, GIF"), SB_FORMAT_FILM, SB_MOVIE_GIF},

@@ -167,7 +167,7 @@ int sb_movie_fps_max(SbMovieFormat format) {
 static SbStatus check_options(const SbMovieOptions *options, SbReport *report) {
   int least = MIN(options->width, options->height), most = MAX(options->width, options->height);
   if (least < SB_MOVIE_SIZE_MIN || most > SB_MOVIE_SIZE_MAX) {
-    return sb_fail(report, SB_ERROR_RANGE, "a film of %d x %d pixels: sides run from %d to %d",
+    return sb_fail(report, SB_ERROR_RANGE, "a movie of %d x %d pixels: sides run from %d to %d",
                    options->width, options->height, SB_MOVIE_SIZE_MIN, SB_MOVIE_SIZE_MAX);
   }
   const int most_fps = sb_movie_fps_max(options->format);

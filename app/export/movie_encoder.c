@@ -59,7 +59,7 @@ static SbStatus fail(SbReport *report, const char *what, int code) {
 // An error that the buffered output met since.
 static SbStatus check_output(SbMovieEncoder *encoder, SbReport *report) {
   int code = encoder->format->pb->error;
-  return code < 0 ? fail(report, "writing the film", code) : SB_OK;
+  return code < 0 ? fail(report, "writing the movie", code) : SB_OK;
 }
 
 // ---- Pixels: cairo's ARGB32 to the encoder's picture ----
@@ -217,7 +217,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     encoder->frame = av_frame_alloc();
     encoder->packet = av_packet_alloc();
     if (encoder->stream == NULL || encoder->frame == NULL || encoder->packet == NULL) {
-      status = sb_fail(report, SB_ERROR_MEMORY, "no memory for the film");
+      status = sb_fail(report, SB_ERROR_MEMORY, "no memory for the movie");
     }
   }
   if (status == SB_OK) {
@@ -234,7 +234,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
       code = avio_open(&encoder->format->pb, url, AVIO_FLAG_WRITE);
     }
     if (code < 0) {
-      status = fail(report, "the film does not open", code);
+      status = fail(report, "the movie does not open", code);
     }
   }
   if (status == SB_OK) {
@@ -252,7 +252,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     code = avformat_write_header(encoder->format, &set);
     av_dict_free(&set);
     encoder->header = code >= 0;
-    status = code < 0 ? fail(report, "the film's header", code) : check_output(encoder, report);
+    status = code < 0 ? fail(report, "the movie's header", code) : check_output(encoder, report);
   }
   if (status != SB_OK) {
     sb_movie_encoder_destroy(encoder);
@@ -274,7 +274,7 @@ static SbStatus push(SbMovieEncoder *encoder, const AVFrame *frame, SbReport *re
     av_packet_rescale_ts(encoder->packet, encoder->codec->time_base, encoder->stream->time_base);
     code = av_interleaved_write_frame(encoder->format, encoder->packet);
     if (code < 0) {
-      return fail(report, "writing the film", code);
+      return fail(report, "writing the movie", code);
     }
   }
   if (code != AVERROR(EAGAIN) && code != AVERROR_EOF) {
@@ -310,10 +310,10 @@ SbStatus sb_movie_encoder_finish(SbMovieEncoder *encoder, const char *comment, S
   }
   int code = av_write_trailer(encoder->format);
   encoder->header = false;
-  status = code < 0 ? fail(report, "the film's index", code) : check_output(encoder, report);
+  status = code < 0 ? fail(report, "the movie's index", code) : check_output(encoder, report);
   code = avio_closep(&encoder->format->pb);
   if (status == SB_OK && code < 0) {
-    status = fail(report, "closing the film", code);
+    status = fail(report, "closing the movie", code);
   }
   return status;
 }

@@ -77,7 +77,7 @@ bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRen
   duration = movie->speed > 0 ? (film->end - film->begin) / movie->speed : duration;
   if (good && !(fps >= fps_min && fps <= fps_max && duration * fps <= pictures_max)) {
     good =
-        fail(error, "impossible film (allowed 0.1 to 1000 pictures per second, a million in all)");
+        fail(error, "impossible movie (allowed 0.1 to 1000 pictures per second, a million in all)");
   }
   if (!good) {
     g_free(film);

@@ -391,7 +391,7 @@ bool sb_answers_set_list(const SbQuestions *asked, const char *const *name, GErr
   for (size_t i = 0; i < asked->figures; i++) {
     figure[i] = sb_figure(asked->figure[i])->path;
   }
-  return sb_store_set_list(asked->store, parameter, figure, error);
+  return asked->store == NULL || sb_store_set_list(asked->store, parameter, figure, error);
 }
 
 bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {

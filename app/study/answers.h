@@ -57,7 +57,7 @@ typedef struct {
   double seconds;       // time that they took [s]
 } SbAnswers;
 
-// Sets the list of questions->store, which is not NULL (sb_store_set_list()): the names of the
+// Sets the list of questions->store (sb_store_set_list(); NULL: does nothing): the names of the
 // parameters and the paths of the figures. `name`: [questions->parameters] names; NULL: the keys of
 // the parameters, none of which is SB_QUESTION_NONE. Returns false with SB_APP_ERROR_IO.
 bool sb_answers_set_list(const SbQuestions *questions, const char *const *name, GError **error);

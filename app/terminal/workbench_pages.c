@@ -275,7 +275,7 @@ static const char *const help[] = {
     N_("c               cancel the run or the study"),
     N_("1 2 3 4         valve, studies, measured, propellants"),
     N_("s  S  o         save, save as, open"),
-    N_("x               export: .json, .txt of this screen, a picture or film of a view"),
+    N_("x               export: .json, .txt of this screen, a picture or movie of a view"),
     N_("Ctrl-L          redraw the screen; Ctrl-Z suspend"),
     N_("q               quit"),
 };

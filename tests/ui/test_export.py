@@ -40,7 +40,7 @@ def a_picture(folder):
 def a_film(folder):
     path = os.path.join(folder, "cycle.mp4")
     with App(scene(folder)) as app:
-        open_dialog(app, path, "Film, MP4", "Axial section")
+        open_dialog(app, path, "Movie, MP4", "Axial section")
         app.spin("Width", 320)
         app.spin("Height", 180)
         app.spin("Frames per second", 10)
@@ -56,7 +56,7 @@ def a_film(folder):
 def a_sequence(folder):
     path = os.path.join(folder, "cycle.png")
     with App(scene(folder)) as app:
-        open_dialog(app, path, "Pictures of a film, PNG", "Axial section")
+        open_dialog(app, path, "Pictures of a movie, PNG", "Axial section")
         app.spin("Width", 320)
         app.spin("Height", 180)
         app.spin("Frames per second", 10)
@@ -74,7 +74,7 @@ def a_sequence(folder):
 def a_cancelled_film(folder):
     path = os.path.join(folder, "cycle.mp4")
     with App(scene(folder)) as app:
-        open_dialog(app, path, "Film, MP4", "Dashboard")
+        open_dialog(app, path, "Movie, MP4", "Dashboard")
         app.spin("Duration", 600)
         app.watch_latency()
         app.act(export_button(app), "click")

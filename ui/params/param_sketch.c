@@ -26,19 +26,21 @@ typedef struct {
   Mark mark;
 } Sketch;
 
-// The size that a parameter is or is the tolerance of; of a size of one seal that of both.
+// Returns the size that a parameter is, or whose tolerance it is. For a size of one seal: that of
+// both seals.
 static SbParamId size_of(SbParamId id) {
   const int toleranced = sb_param_toleranced(id);
   const SbParamId size = toleranced >= 0 ? (SbParamId)toleranced : id;
   return sb_param(size)->parent >= 0 ? (SbParamId)sb_param(size)->parent : size;
 }
 
-// Finds the dimension of a size, if there is one that is not 0.
+// The dimension line of a size.
 typedef struct {
   SbParamId size;
   Mark mark;
 } Dimension;
 
+// Finds the dimension of a size among all[count]; FALSE: there is none, or it is 0.
 static gboolean find(Mark *mark, SbParamId size, const Dimension *all, size_t count) {
   for (size_t i = 0; i < count; i++) {
     if (all[i].size == size && fabs(all[i].mark.to - all[i].mark.from) > 0) {
@@ -49,7 +51,7 @@ static gboolean find(Mark *mark, SbParamId size, const Dimension *all, size_t co
   return FALSE;
 }
 
-// The same of a gasket valve.
+// Finds the dimension of a size of a gasket valve; FALSE: there is none.
 static gboolean find_gasket_mark(Mark *mark, const SbValveOutline *v, const SbModel *model,
                                  SbParamId size) {
   const double bore = 0.5 * sb_model_value(model, SB_P_GASKET_BORE_DIAMETER);

@@ -142,7 +142,7 @@ static void draw_picture(Presentation *self, cairo_t *cr, SbRect rect, const SbT
     return;
   }
   SbRenderView view = *sb_render_view(name);
-  if (view.cutaway && sb_chart_is_rig(&data->run)) { // of the plate there is none
+  if (view.cutaway && sb_chart_is_rig(&data->run)) { // the sliding plate has no cutaway
     view = *sb_render_view("section");
   }
   view.width *= pictures[self->picture].share;
