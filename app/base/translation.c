@@ -30,7 +30,7 @@ G_GNUC_UNUSED static const char *const listed[] = {
     N_("friction, real contact and film of both seals against the speed, as computed in the cycle"),
     N_("Tolerances"),
     N_("loads, break-away and return force over the tolerances of the sizes: worst case and RSS"),
-    // app/draw/canvas.c
+    // app/draw/legend.c
     N_("predicted"),
     // app/chart/life.c
     N_("actuation"),

@@ -4,8 +4,10 @@
 #include "app/chart/calibration.h"
 
 #include "app/base/format.h"
+#include "app/chart/measured_loop.h"
 #include "app/chart/page.h"
 #include "app/draw/axis.h"
+#include "app/draw/frame.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -20,50 +22,17 @@ typedef struct {
 
 // ---- Loops ----
 
-static void band(Draw *d, const SbScale *x, const SbScale *y, const SbMeasuredBand *of, SbRole role,
-                 double alpha) {
+static void loop_line(Draw *d, const SbAxes *at, const SbLoop *loop, bool after) {
   SbCanvas *c = &d->canvas;
-  SbPoint outline[2 * SB_MEASURED_BAND];
-  for (int way = 0; way < 2 && of->end > 0; way++) {
-    size_t count = 0;
-    for (int side = 0; side < 2; side++) {
-      for (int i = 0; i < SB_MEASURED_BAND; i++) {
-        const int piece = side == 0 ? i : SB_MEASURED_BAND - 1 - i;
-        const double force = of->force[way][piece][side];
-        if (isfinite(force)) {
-          outline[count++] =
-              (SbPoint){sb_axis_at(x, 1e3 * of->end * (piece + 0.5) / SB_MEASURED_BAND),
-                        sb_axis_at(y, force)};
-        }
-      }
-    }
-    if (count > 2) {
-      cairo_new_path(c->cr);
-      sb_canvas_path(c, outline, count);
-      cairo_close_path(c->cr);
-      sb_canvas_color(c, sb_canvas_role(c, role), alpha);
-      cairo_fill(c->cr);
-    }
-  }
-}
-
-static void loop_line(Draw *d, const SbScale *x, const SbScale *y, const SbLoop *loop, bool after) {
-  SbCanvas *c = &d->canvas;
-  sb_canvas_pen(c, after ? SB_LINE_SEAL : SB_LINE_PINNED, after ? NULL : &sb_dash_reference);
-  sb_canvas_color(c, sb_canvas_role(c, after ? SB_ROLE_INNER : SB_ROLE_PINNED), 1);
+  sb_canvas_stroke(c, after ? (SbStroke){SB_ROLE_INNER, SB_LINE_SEAL, NULL}
+                            : (SbStroke){SB_ROLE_PINNED, SB_LINE_PINNED, &sb_dash_reference});
   for (int way = 0; way < 2; way++) {
     g_autofree SbPoint *p = g_new(SbPoint, loop->count[way] + 1);
     for (size_t i = 0; i < loop->count[way]; i++) {
-      p[i] = (SbPoint){sb_axis_at(x, 1e3 * loop->displacement[way][i]),
-                       sb_axis_at(y, loop->force[way][i])};
+      p[i] = sb_axes_at(at, 1e3 * loop->displacement[way][i], loop->force[way][i]);
     }
     sb_canvas_polyline(c, p, loop->count[way]);
   }
-}
-
-static void dot(SbCanvas *c, double x, double y, bool open) {
-  sb_canvas_dot(c, x, y, 1.95, sb_canvas_role(c, open ? SB_ROLE_OCHRE : SB_ROLE_INK));
-  sb_canvas_dot(c, x, y, 1.25, sb_canvas_role(c, open ? SB_ROLE_PANEL : SB_ROLE_OCHRE));
 }
 
 static void include(double *low, double *high, const SbMeasuredBand *of) {
@@ -101,40 +70,25 @@ static void draw_loop(Draw *d, SbRect rect, size_t index, const Ranges *r) {
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const SbRect plot = {rect.x, rect.y + 22, rect.width, rect.height - 22 - 178};
   const SbRect strip = {rect.x, plot.y + plot.height + 44, rect.width, 90};
-  double low = r->low, high = r->high, most = r->residual, least = -r->residual;
+  double low = r->low, high = r->high;
   sb_axis_round_out(&low, &high, 8);
-  sb_axis_round_out(&least, &most, 4);
-  const SbScale x = {0, r->x * 1.02, plot.x, plot.x + plot.width, false};
-  const SbScale y = {low, high, plot.y + plot.height, plot.y, false};
-  const SbScale ry = {least, most, strip.y + strip.height, strip.y, false};
-  SbTicks x_ticks, y_ticks, r_ticks, none = {0};
-  sb_axis_ticks(&x_ticks, 0, r->x, 6);
-  sb_axis_ticks(&y_ticks, low, high, 8);
-  sb_axis_ticks(&r_ticks, least, most, 4);
+  SbAxes at = {.x_name = NULL};
+  sb_axes_linear(&at, plot, 0, r->x * 1.02, low, high);
+  sb_axes_ticks(&at, 0, 8);
   sb_canvas_text_fit(c, of->name, &name, rect.x, rect.y + 12, rect.width);
-  sb_axis_draw(c, plot, &x, &none, &y, &y_ticks);
-  sb_axis_draw(c, strip, &x, &x_ticks, &ry, &r_ticks);
-  cairo_save(c->cr);
-  cairo_rectangle(c->cr, plot.x, plot.y, plot.width, plot.height);
-  cairo_clip(c->cr);
-  band(d, &x, &y, of->prior, SB_ROLE_PINNED, 0.25);
-  band(d, &x, &y, of->posterior, SB_ROLE_INNER, 0.30);
-  loop_line(d, &x, &y, of->before, false);
-  loop_line(d, &x, &y, of->after, true);
+  sb_axes_draw(c, &at, NULL);
+  sb_axis_ticks(&at.x_ticks, 0, r->x, 6);
+  sb_canvas_clip(c, plot);
+  sb_measured_loop_band(c, &at, of->prior, SB_ROLE_PINNED, 0.25);
+  sb_measured_loop_band(c, &at, of->posterior, SB_ROLE_INNER, 0.30);
+  loop_line(d, &at, of->before, false);
+  loop_line(d, &at, of->after, true);
   cairo_restore(c->cr);
   const SbComparison *points = of->comparison;
-  const double zero = sb_axis_at(&ry, 0);
-  sb_canvas_hairline(c, strip.x, zero, strip.x + strip.width, zero,
-                     sb_canvas_role(c, SB_ROLE_AXIS));
-  for (size_t k = 0; points != NULL && k < MIN(points->count, DOTS); k++) {
-    const size_t i = k * points->count / MIN(points->count, DOTS);
-    const SbMeasuredPoint *at = &points->point[i];
-    dot(c, sb_axis_at(&x, 1e3 * at->displacement), sb_axis_at(&y, at->force), false);
-    if (isfinite(points->residual[i])) {
-      dot(c, sb_axis_at(&x, 1e3 * at->displacement), sb_axis_at(&ry, points->residual[i]),
-          at->way == 1);
-    }
+  if (points != NULL) {
+    sb_measured_loop_points(c, &at, points);
   }
+  sb_measured_loop_residuals(c, strip, &at, true, points, r->residual, 4);
   char before[SB_FORMAT_MAX], after[SB_FORMAT_MAX];
   g_autofree char *rms = points != NULL && isfinite(of->before_rms)
                              ? g_strdup_printf(_("rms %s \xe2\x86\x92 %s"),
@@ -146,19 +100,16 @@ static void draw_loop(Draw *d, SbRect rect, size_t index, const Ranges *r) {
     sb_canvas_text_fit(c, _("measured \xe2\x88\x92 model / N"), &label, rect.x, strip.y - 12,
                        rect.width - 120);
   }
-  sb_canvas_text(c, _("displacement / mm"), &label, rect.x + rect.width,
-                 strip.y + strip.height + 34, SB_RIGHT);
 }
 
 static void draw_loops(Draw *d, SbRect rect) {
   SbCanvas *c = &d->canvas;
-  const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL, 700, SB_ROLE_INK);
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const size_t shown = MIN(d->view->loops, LOOPS_MAX);
   g_autofree char *note = g_strdup_printf(
       _("force on the stem / N; grey: before, blue: after, bands contain 95 %% of the model%s"),
       shown < d->view->loops ? _("; the first three") : "");
-  sb_canvas_text(c, _("Measured loops and model"), &title, rect.x, rect.y + 14, SB_LEFT);
+  sb_frame_title(c, rect, SB_TYPE_PANEL, _("Measured loops and model"), NULL);
   sb_canvas_text_fit(c, note, &label, rect.x, rect.y + 34, rect.width);
   const Ranges ranges = ranges_of(d->view);
   const double gap = 46, width = (rect.width - gap * (double)shown) / (double)MAX(shown, 1);
@@ -179,7 +130,6 @@ static double table_height(const SbCalibrationView *view) {
 
 static void draw_table(Draw *d, SbRect rect) {
   SbCanvas *c = &d->canvas;
-  const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL, 700, SB_ROLE_INK);
   const SbTextStyle head = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   const SbTextStyle text = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   const SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
@@ -187,7 +137,7 @@ static void draw_table(Draw *d, SbRect rect) {
   const double column[] = {rect.x + 0.43 * rect.width, rect.x + 0.535 * rect.width,
                            rect.x + 0.735 * rect.width};
   const double bar = rect.x + 0.76 * rect.width, bar_width = 0.09 * rect.width;
-  sb_canvas_text(c, _("Fitted parameters"), &title, rect.x, rect.y + 14, SB_LEFT);
+  sb_frame_title(c, rect, SB_TYPE_PANEL, _("Fitted parameters"), NULL);
   static const char *const heads[] = {N_("before"), N_("estimate"), N_("95 % interval")};
   for (int i = 0; i < 3; i++) {
     sb_canvas_text(c, _(heads[i]), &head, column[i], rect.y + 38, SB_RIGHT);
@@ -205,17 +155,13 @@ static void draw_table(Draw *d, SbRect rect) {
     const double span = row->prior_high - row->prior_low;
     const double from = (row->low - row->prior_low) / span,
                  to = (row->high - row->prior_low) / span;
-    cairo_rectangle(c->cr, bar, base - 7, bar_width, 5);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_HAIRLINE), 1);
-    cairo_fill(c->cr);
-    cairo_rectangle(c->cr, bar + bar_width * CLAMP(from, 0, 1), base - 7,
-                    fmax(bar_width * (CLAMP(to, 0, 1) - CLAMP(from, 0, 1)), 2), 5);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INNER), 1);
-    cairo_fill(c->cr);
+    sb_canvas_fill(c, (SbRect){bar, base - 7, bar_width, 5}, SB_ROLE_HAIRLINE, 1);
+    sb_canvas_fill(c,
+                   (SbRect){bar + bar_width * CLAMP(from, 0, 1), base - 7,
+                            fmax(bar_width * (CLAMP(to, 0, 1) - CLAMP(from, 0, 1)), 2), 5},
+                   SB_ROLE_INNER, 1);
     const double mark = bar + bar_width * CLAMP((row->before - row->prior_low) / span, 0, 1);
-    cairo_rectangle(c->cr, mark - 0.7, base - 10, 1.4, 11);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
-    cairo_fill(c->cr);
+    sb_canvas_fill(c, (SbRect){mark - 0.7, base - 10, 1.4, 11}, SB_ROLE_SECOND, 1);
     const SbTextStyle told = sb_canvas_style(c, SB_TYPE_LABEL, 600, row->role);
     sb_canvas_text(c, row->identifiable, &told, right, base, SB_RIGHT);
   }
@@ -282,7 +228,7 @@ static void draw_density(Draw *d, SbRect cell, size_t j, const SbScale *x) {
     }
   }
   const double scale = 1 / (width * sqrt(2 * M_PI) * ceil((double)view->samples / (double)step));
-  SbPoint curve[PLACES], before[PLACES];
+  SbPoint curve[PLACES + 2], before[PLACES];
   for (int k = 0; k < PLACES; k++) {
     value[k] *= scale;
     most = fmax(most, value[k]);
@@ -294,37 +240,27 @@ static void draw_density(Draw *d, SbRect cell, size_t j, const SbScale *x) {
     before[k] = (SbPoint){px, foot - 0.92 * cell.height *
                                          fmin(prior_density(view->row[j].prior, at) / most, 1.08)};
   }
-  cairo_new_path(c->cr);
-  cairo_move_to(c->cr, curve[0].x, cell.y + cell.height);
-  for (int k = 0; k < PLACES; k++) {
-    cairo_line_to(c->cr, curve[k].x, curve[k].y);
-  }
-  cairo_line_to(c->cr, curve[PLACES - 1].x, cell.y + cell.height);
-  cairo_close_path(c->cr);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INNER), c->theme->curve_fill);
-  cairo_fill(c->cr);
-  sb_canvas_pen(c, SB_LINE_OUTLINE, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INNER), 1);
-  sb_canvas_polyline(c, curve, PLACES);
-  sb_canvas_pen(c, SB_LINE_PINNED, &sb_dash_reference);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PINNED), 1);
-  sb_canvas_polyline(c, before, PLACES);
+  curve[PLACES] = (SbPoint){curve[PLACES - 1].x, cell.y + cell.height};
+  curve[PLACES + 1] = (SbPoint){curve[0].x, cell.y + cell.height};
+  sb_canvas_area(c, curve, PLACES + 2, SB_ROLE_INNER, c->theme->curve_fill);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_INNER, SB_LINE_OUTLINE, NULL}, curve, PLACES);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_PINNED, SB_LINE_PINNED, &sb_dash_reference}, before,
+                  PLACES);
   sb_canvas_hairline(c, cell.x, cell.y + cell.height, cell.x + cell.width, cell.y + cell.height,
                      sb_canvas_role(c, SB_ROLE_AXIS));
 }
 
-static void draw_pair(Draw *d, SbRect cell, size_t j, size_t k, const SbScale *x,
-                      const SbScale *y) {
+static void draw_pair(Draw *d, const SbAxes *at, size_t j, size_t k) {
   SbCanvas *c = &d->canvas;
+  const SbRect cell = at->plot;
   const SbCalibrationView *view = d->view;
   const double rho = view->correlation[j * view->rows + k];
-  cairo_save(c->cr);
-  cairo_rectangle(c->cr, cell.x, cell.y, cell.width, cell.height);
-  cairo_clip(c->cr);
+  sb_canvas_clip(c, cell);
   const size_t step = view->samples / DOTS + 1;
   for (size_t i = 0; i < view->samples; i += step) {
-    const double *at = view->sample + i * view->rows;
-    cairo_arc(c->cr, sb_axis_at(x, at[k]), sb_axis_at(y, at[j]), 1.1, 0, 2 * M_PI);
+    const double *sample = view->sample + i * view->rows;
+    const SbPoint p = sb_axes_at(at, sample[k], sample[j]);
+    cairo_arc(c->cr, p.x, p.y, 1.1, 0, 2 * M_PI);
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INNER), 0.35);
     cairo_fill(c->cr);
   }
@@ -337,18 +273,15 @@ static void draw_pair(Draw *d, SbRect cell, size_t j, size_t k, const SbScale *x
     for (int i = 0; i < 73; i++) {
       const double u = cos(i * M_PI / 36),
                    v = rho * u + sqrt(fmax(1 - rho * rho, 0)) * sin(i * M_PI / 36);
-      ring[i] = (SbPoint){sb_axis_at(x, mean[0] + radius[r] * deviation[0] * u),
-                          sb_axis_at(y, mean[1] + radius[r] * deviation[1] * v)};
+      ring[i] = sb_axes_at(at, mean[0] + radius[r] * deviation[0] * u,
+                           mean[1] + radius[r] * deviation[1] * v);
     }
-    sb_canvas_pen(c, SB_LINE_FRAME, NULL);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INNER), 1);
-    sb_canvas_polyline(c, ring, 73);
+    sb_canvas_curve(c, (SbStroke){SB_ROLE_INNER, SB_LINE_FRAME, NULL}, ring, 73);
   }
-  const double px = sb_axis_at(x, view->row[k].before), py = sb_axis_at(y, view->row[j].before);
-  sb_canvas_pen(c, SB_LINE_FRAME, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
-  sb_canvas_polyline(c, (SbPoint[]){{px - 5, py}, {px + 5, py}}, 2);
-  sb_canvas_polyline(c, (SbPoint[]){{px, py - 5}, {px, py + 5}}, 2);
+  const SbPoint before = sb_axes_at(at, view->row[k].before, view->row[j].before);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_SECOND, SB_LINE_FRAME, NULL},
+                  (SbPoint[]){{before.x - 5, before.y}, {before.x + 5, before.y}}, 2);
+  sb_canvas_polyline(c, (SbPoint[]){{before.x, before.y - 5}, {before.x, before.y + 5}}, 2);
   cairo_restore(c->cr);
   cairo_rectangle(c->cr, cell.x + 0.5, cell.y + 0.5, cell.width - 1, cell.height - 1);
   sb_canvas_pen(c, 1, NULL);
@@ -365,12 +298,9 @@ static void draw_posterior(Draw *d, SbRect rect) {
   SbCanvas *c = &d->canvas;
   const SbCalibrationView *view = d->view;
   const size_t shown = MIN(view->rows, PAIRS_MAX);
-  const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL, 700, SB_ROLE_INK);
-  const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const SbTextStyle name = sb_canvas_style(c, SB_TYPE_NOTE, 600, SB_ROLE_INK);
-  sb_canvas_text(c, _("Posterior"), &title, rect.x, rect.y + 14, SB_LEFT);
-  sb_canvas_text_fit(c, _("pairs; ellipses contain 50 and 95 %, grey: before"), &label, rect.x + 90,
-                     rect.y + 14, rect.width - 90);
+  sb_frame_title(c, rect, SB_TYPE_PANEL, _("Posterior"),
+                 _("pairs; ellipses contain 50 and 95 %, grey: before"));
   if (view->samples < 10 || rect.height < 160) {
     return;
   }
@@ -388,12 +318,12 @@ static void draw_posterior(Draw *d, SbRect rect) {
     for (size_t k = 0; k <= j; k++) {
       const SbRect cell = {rect.x + left + (double)k * (width + gap),
                            rect.y + top + (double)j * (height + gap), width, height};
-      const SbScale x = {scale[k].lo, scale[k].hi, cell.x, cell.x + cell.width, false};
-      const SbScale y = {scale[j].lo, scale[j].hi, cell.y + cell.height, cell.y, false};
+      SbAxes at;
+      sb_axes_linear(&at, cell, scale[k].lo, scale[k].hi, scale[j].lo, scale[j].hi);
       if (j == k) {
-        draw_density(d, cell, j, &x);
+        draw_density(d, cell, j, &at.x);
       } else {
-        draw_pair(d, cell, j, k, &x, &y);
+        draw_pair(d, &at, j, k);
       }
     }
     sb_canvas_text_fit(c, view->row[j].name, &name, rect.x,

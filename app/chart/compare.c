@@ -7,6 +7,7 @@
 #include "app/base/figure_text.h"
 #include "app/base/unit.h"
 #include "app/chart/hysteresis.h"
+#include "app/draw/legend.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -146,19 +147,6 @@ static const char *percent_text(char *out, const Row *row, double value) {
   return out;
 }
 
-// A sample of the line and its name, cut to end at `right`.
-static void draw_head(SbCanvas *c, double left, double right, double y, SbRole role, double width,
-                      const SbDash *dash, const char *name) {
-  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, role);
-  const double room = right - left - 24;
-  const double used = fmin(sb_canvas_text_width(c, name, &style), room);
-  const double start = right - used;
-  sb_canvas_pen(c, width, dash);
-  sb_canvas_color(c, sb_canvas_role(c, role), 1);
-  sb_canvas_polyline(c, (SbPoint[]){{start - 24, y - 4}, {start - 6, y - 4}}, 2);
-  sb_canvas_text_fit_ends(c, name, &style, start, y, used + 1);
-}
-
 void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                      unsigned flags) {
   SbCanvas canvas, *c = &canvas;
@@ -184,12 +172,11 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
   const SbTextStyle stuck = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_ERROR);
   const SbTextStyle dots = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
   double y = rect.y + 14;
-  draw_head(c, live - VALUE - gap, live, y, SB_ROLE_INK, SB_LINE_ACTIVE, NULL, _("live"));
+  sb_legend_line(c, live, y, VALUE + gap, (SbStroke){SB_ROLE_INK, SB_LINE_ACTIVE, NULL}, _("live"));
   for (size_t i = 0; i < data->pin_count; i++) {
     const SbChartPin *pin = &data->pin[i];
     const double right = live + (double)(i + 1) * (each + gap);
-    draw_head(c, right - each - gap + 8, right, y, sb_chart_pin_role(pin->look), SB_LINE_PINNED,
-              sb_chart_pin_dash(pin->look), pin->name);
+    sb_legend_line(c, right, y, each + gap - 8, sb_chart_pin_stroke(pin->look), pin->name);
   }
   if (measured) {
     sb_canvas_text(c, _("measured"), &dots, rect.x + rect.width, y, SB_RIGHT);
@@ -200,9 +187,7 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
     char text[SB_FORMAT_MAX];
     make(&row, data, k);
     if (k < AT_PLAYHEAD) {
-      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_GRID), 1);
-      cairo_rectangle(cr, rect.x - 4, y, rect.width + 8, ROW);
-      cairo_fill(cr);
+      sb_canvas_fill(c, (SbRect){rect.x - 4, y, rect.width + 8, ROW}, SB_ROLE_GRID, 1);
     } else {
       sb_canvas_hairline(c, rect.x, y, rect.x + rect.width, y, sb_canvas_role(c, SB_ROLE_GRID));
     }

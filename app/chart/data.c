@@ -193,6 +193,7 @@ SbRole sb_chart_pin_role(int look) {
   return look == 0 ? SB_ROLE_VIOLET : SB_ROLE_TEAL;
 }
 
-const SbDash *sb_chart_pin_dash(int look) {
-  return look == 0 ? &sb_dash_pinned : &sb_dash_now;
+SbStroke sb_chart_pin_stroke(int look) {
+  return (SbStroke){sb_chart_pin_role(look), SB_LINE_PINNED,
+                    look == 0 ? &sb_dash_pinned : &sb_dash_now};
 }

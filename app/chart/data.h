@@ -62,8 +62,8 @@ enum { SB_CHART_PINS = 2 };
 // Returns the role of the colour of a drawing style (SbChartPin.look).
 SbRole sb_chart_pin_role(int look);
 
-// Returns the dashes of a drawing style (SbChartPin.look). Static.
-const SbDash *sb_chart_pin_dash(int look);
+// Returns the line of a drawing style (SbChartPin.look).
+SbStroke sb_chart_pin_stroke(int look);
 
 // Range of a loop's plot: displacements x0 to x1 [mm] and forces y0 to y1 [N].
 typedef struct {

@@ -5,6 +5,9 @@
 #include "app/base/format.h"
 #include "app/chart/hysteresis_private.h"
 
+#include "app/draw/frame.h"
+#include "app/draw/legend.h"
+
 #include <glib.h>
 #include <glib/gi18n.h>
 #include <math.h>
@@ -13,11 +16,6 @@
 // Width of "D 22.5 N" beside its dot: inside the plot, and in the margin to its right [px].
 #define LABEL_ROOM         56.0
 #define LABEL_ROOM_OUTSIDE 12.0
-
-static SbRect inner_rect(SbRect rect, unsigned flags) {
-  double pad = flags & SB_CHART_PANEL ? SB_GRID_PADDING : 0;
-  return (SbRect){rect.x + pad, rect.y + pad, rect.width - 2 * pad, rect.height - 2 * pad};
-}
 
 static void include_run(const SbChartRun *run, double *x1, double *y0, double *y1) {
   if (!run || !run->trace || run->count == 0) {
@@ -29,10 +27,10 @@ static void include_run(const SbChartRun *run, double *x1, double *y0, double *y
   *y1 = fmax(*y1, r.force_max);
 }
 
-void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartData *data,
-                          unsigned flags) {
+void sb_hysteresis_layout(SbAxes *out, SbRect rect, const SbChartData *data, unsigned flags) {
   bool compact = flags & SB_CHART_COMPACT;
-  SbRect in = inner_rect(rect, flags);
+  SbRect in = sb_frame_inner(rect, flags & SB_CHART_PANEL);
+  *out = (SbAxes){.x_name = _("stem displacement / mm")};
 
   // Ranges hold for the whole cycle from the first frame on, so that a growing loop does not jump.
   const SbModel *model = data->run.model;
@@ -78,36 +76,24 @@ void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartDat
   const double right = LABEL_ROOM_OUTSIDE, top = compact ? 48 : 95;
   const double strip = compact ? SB_HYSTERESIS_STRIP_COMPACT : SB_HYSTERESIS_STRIP;
   const double bottom = data->measured != NULL ? 40 + strip : 40;
-  out->plot = (SbRect){in.x + left, in.y + top, fmax(in.width - left - right, 40),
+  const SbRect plot = {in.x + left, in.y + top, fmax(in.width - left - right, 40),
                        fmax(in.height - top - bottom, 40)};
-  double room_left = 18, room_right = fmin(LABEL_ROOM, 0.25 * out->plot.width);
-  double per_px = x1 / fmax(out->plot.width - room_left - room_right, 20);
-  out->x = (SbScale){-room_left * per_px, x1 + room_right * per_px, out->plot.x,
-                     out->plot.x + out->plot.width, false};
-  out->y = (SbScale){y0, y_top, out->plot.y + out->plot.height, out->plot.y, false};
-  const int wanted_x = out->plot.width > 300 ? 8 : 5;
+  double room_left = 18, room_right = fmin(LABEL_ROOM, 0.25 * plot.width);
+  double per_px = x1 / fmax(plot.width - room_left - room_right, 20);
+  sb_axes_linear(out, plot, -room_left * per_px, x1 + room_right * per_px, y0, y_top);
+  const int wanted_x = plot.width > 300 ? 8 : 5;
   sb_axis_ticks(&out->x_ticks, 0, out->x.hi, wanted_x);
   if (data->zoom != NULL) {
     const SbChartZoom *zoom = data->zoom;
-    out->x.lo = zoom->x0;
-    out->x.hi = zoom->x1;
-    out->y.lo = zoom->y0;
-    out->y.hi = zoom->y1;
-    sb_axis_ticks(&out->x_ticks, zoom->x0, zoom->x1, wanted_x);
-    sb_axis_ticks(&out->y_ticks, zoom->y0, zoom->y1, wanted_y);
+    sb_axes_linear(out, plot, zoom->x0, zoom->x1, zoom->y0, zoom->y1);
+    sb_axes_ticks(out, wanted_x, wanted_y);
   }
-}
-
-bool sb_hysteresis_in_plot(const SbHysteresisLayout *at, SbPoint p) {
-  const SbRect *plot = &at->plot;
-  return p.x >= plot->x && p.x <= plot->x + plot->width && p.y >= plot->y &&
-         p.y <= plot->y + plot->height;
 }
 
 bool sb_hysteresis_zoom(SbChartZoom *out, SbRect rect, const SbChartData *data, unsigned flags,
                         double factor, double x, double y) {
   SbChartData all = *data;
-  SbHysteresisLayout at, whole;
+  SbAxes at, whole;
   all.zoom = NULL;
   sb_hysteresis_layout(&at, rect, data, flags);
   sb_hysteresis_layout(&whole, rect, &all, flags);
@@ -134,14 +120,14 @@ static size_t drawable(const SbChartRun *run) {
   return run->trace ? MIN(run->count, sb_trace_frames(run->trace)) : 0;
 }
 
-SbPoint sb_hysteresis_pixel(const SbHysteresisLayout *at, double displacement, double force) {
-  return (SbPoint){sb_axis_at(&at->x, displacement * 1e3), sb_axis_at(&at->y, force)};
+SbPoint sb_hysteresis_pixel(const SbAxes *at, double displacement, double force) {
+  return sb_axes_at(at, displacement * 1e3, force);
 }
 
 // Pixels of the trace's points from frame `first` to `last`, with the exact frames at both ends.
 // Owned by the caller.
-static SbPoint *trace_pixels(const SbHysteresisLayout *at, const SbChartRun *run, size_t first,
-                             size_t last, size_t *count) {
+static SbPoint *trace_pixels(const SbAxes *at, const SbChartRun *run, size_t first, size_t last,
+                             size_t *count) {
   size_t n = 0, total = 0;
   *count = 0;
   size_t limit = drawable(run);
@@ -164,68 +150,34 @@ static SbPoint *trace_pixels(const SbHysteresisLayout *at, const SbChartRun *run
   return out;
 }
 
-// Grid, axes, titles.
-static void draw_axes(SbHysteresisView *v) {
-  SbCanvas *c = &v->canvas;
-  const SbHysteresisLayout *at = &v->at;
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  double left = at->plot.x, right = at->plot.x + at->plot.width;
-  double bottom = at->plot.y + at->plot.height;
-  sb_axis_draw(c, at->plot, &at->x, &at->x_ticks, &at->y, &at->y_ticks);
-  double zero = sb_axis_at(&at->y, 0);
-  if (zero >= at->plot.y && zero <= bottom + 1) {
-    sb_canvas_hairline(c, left, zero, right, zero, sb_canvas_role(c, SB_ROLE_AXIS));
+// What is to be known of the run that is drawn; `several`: buffer of its text.
+static const char *note_of(const SbChartData *data, unsigned flags, char *several, size_t size) {
+  const SbModel *m = data->run.model;
+  several[0] = '\0';
+  if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1) {
+    g_snprintf(several, size, _("actuations 1 and %d of %d, stages of the first"),
+               sb_model_shown_actuation(m), sb_model_number(m, SB_P_LIFE_ACTUATIONS));
+  } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1) {
+    const int cycles = sb_model_number(m, SB_P_DRIVE_CYCLES);
+    g_snprintf(several, size,
+               ngettext("%d cycle, stages of the first", "%d cycles, stages of the first",
+                        (unsigned long)cycles),
+               cycles);
   }
-  if (zero < bottom - 1 || zero > bottom + 1) {
-    // Forces below zero, or none near it: the ticks stay at the bottom.
-    sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
+  switch (data->run.state) {
+  case SB_CHART_RUNNING:
+    return data->earlier ? _("being computed; faint: the earlier run") : _("being computed");
+  case SB_CHART_PARTIAL:
+    return _("partial: the run was cancelled");
+  case SB_CHART_FAILED:
+    return _("up to the last good state");
+  case SB_CHART_DONE:
+    return several[0]               ? several
+           : flags & SB_CHART_WHOLE ? _("one actuation, A to F")
+                                    : _("thick line: played so far");
+  default:
+    return "";
   }
-  sb_canvas_text(c, _("stem displacement / mm"), &label, right, bottom + 36, SB_RIGHT);
-}
-
-static void draw_titles(SbHysteresisView *v, SbRect rect) {
-  SbCanvas *c = &v->canvas;
-  SbRect in = inner_rect(rect, v->flags);
-  bool compact = v->flags & SB_CHART_COMPACT;
-  SbTextStyle title =
-      sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  sb_canvas_text_fit(c, _("Force and displacement"), &title, in.x, in.y + 14, in.width);
-  if (!compact) {
-    const char *note = "";
-    char several[96] = "";
-    const SbModel *m = v->data->run.model;
-    if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1) {
-      g_snprintf(several, sizeof several, _("actuations 1 and %d of %d, stages of the first"),
-                 sb_model_shown_actuation(m), sb_model_number(m, SB_P_LIFE_ACTUATIONS));
-    } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1) {
-      const int cycles = sb_model_number(m, SB_P_DRIVE_CYCLES);
-      g_snprintf(several, sizeof several,
-                 ngettext("%d cycle, stages of the first", "%d cycles, stages of the first",
-                          (unsigned long)cycles),
-                 cycles);
-    }
-    switch (v->data->run.state) {
-    case SB_CHART_RUNNING:
-      note = v->data->earlier ? _("being computed; faint: the earlier run") : _("being computed");
-      break;
-    case SB_CHART_PARTIAL:
-      note = _("partial: the run was cancelled");
-      break;
-    case SB_CHART_FAILED:
-      note = _("up to the last good state");
-      break;
-    case SB_CHART_DONE:
-      note = several[0]                  ? several
-             : v->flags & SB_CHART_WHOLE ? _("one actuation, A to F")
-                                         : _("thick line: played so far");
-      break;
-    default:
-      break;
-    }
-    sb_canvas_text_fit(c, note, &label, in.x, in.y + 34, in.width);
-  }
-  sb_canvas_text(c, _("force on the stem / N"), &label, in.x, in.y + (compact ? 34 : 64), SB_LEFT);
 }
 
 // Another run behind: in its look when it is a pin, faint when earlier (`pin` NULL).
@@ -237,8 +189,7 @@ static void draw_other(SbHysteresisView *v, const SbChartRun *run, const SbChart
   }
   SbCanvas *c = &v->canvas;
   if (pin != NULL) {
-    sb_canvas_pen(c, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
-    sb_canvas_color(c, sb_canvas_role(c, sb_chart_pin_role(pin->look)), 1);
+    sb_canvas_stroke(c, sb_chart_pin_stroke(pin->look));
   } else {
     sb_canvas_pen(c, SB_LINE_FUTURE, NULL);
     sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), SB_OPACITY_EARLIER);
@@ -257,12 +208,10 @@ static void draw_predicted(SbHysteresisView *v, SbRect rect) {
   for (size_t i = 0; i < n; i++) {
     p[i] = sb_hysteresis_pixel(&v->at, curve->displacement[i], curve->force[i]);
   }
-  sb_canvas_pen(c, SB_LINE_SEAL, &sb_dash_predicted);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-  sb_canvas_polyline(c, p, n);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_INK, SB_LINE_SEAL, &sb_dash_predicted}, p, n);
   // Named on the line of the axis' name, where nothing else stands.
-  const SbRect in = inner_rect(rect, v->flags);
-  sb_canvas_predicted(c, in.x + in.width, in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64));
+  const SbRect in = sb_frame_inner(rect, v->flags & SB_CHART_PANEL);
+  sb_legend_predicted(c, in.x + in.width, in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64));
 }
 
 // The run itself: interior, future, played part.
@@ -277,11 +226,7 @@ static void draw_loop(SbHysteresisView *v) {
   }
   SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
   if (sb_chart_complete(v->data)) {
-    cairo_new_path(c->cr);
-    sb_canvas_path(c, all, n);
-    cairo_close_path(c->cr);
-    sb_canvas_color(c, ink, c->theme->loop_fill);
-    cairo_fill(c->cr);
+    sb_canvas_area(c, all, n, SB_ROLE_INK, c->theme->loop_fill);
   }
   sb_labels_avoid(v->labels, all, n, 1);
 
@@ -299,9 +244,7 @@ static void draw_loop(SbHysteresisView *v) {
   size_t played;
   g_autofree SbPoint *past = trace_pixels(&v->at, run, 0, now, &played);
   if (past && played > 1) {
-    sb_canvas_pen(c, SB_LINE_ACTIVE, NULL);
-    sb_canvas_color(c, ink, 1);
-    sb_canvas_polyline(c, past, played);
+    sb_canvas_curve(c, (SbStroke){SB_ROLE_INK, SB_LINE_ACTIVE, NULL}, past, played);
   }
   g_free(all);
 }
@@ -388,22 +331,16 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   SbCanvas *c = &v.canvas;
   sb_canvas_init(c, cr, theme);
   sb_hysteresis_layout(&v.at, rect, data, flags);
-  if (flags & SB_CHART_PANEL) {
-    sb_canvas_panel(c, rect);
-  }
-  draw_titles(&v, rect);
-  draw_axes(&v);
+  const SbRect in = sb_frame_begin(c, rect, flags & SB_CHART_PANEL);
+  char several[96];
+  sb_frame_head(c, in, flags & SB_CHART_COMPACT, _("Force and displacement"),
+                note_of(data, flags, several, sizeof several), _("force on the stem / N"));
   v.labels = g_new(SbLabels, 1);
   // Labels may use the whole panel below its title, but stay above the axis.
   SbRect plot = v.at.plot;
   sb_labels_init(v.labels, (SbRect){plot.x - 8, plot.y - 14, plot.width + 8 + LABEL_ROOM_OUTSIDE,
                                     plot.height + 14});
-
-  for (int i = 0; i < v.at.y_ticks.count; i++) {
-    double y = sb_axis_at(&v.at.y, v.at.y_ticks.value[i]);
-    SbPoint line[2] = {{plot.x, y}, {plot.x + plot.width, y}};
-    sb_labels_avoid(v.labels, line, 2, 0.01);
-  }
+  sb_axes_draw(c, &v.at, v.labels);
 
   // The pressure force, which the loop straddles.
   const SbModel *model = data->run.model;
@@ -411,15 +348,11 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
       sb_model_pressure_force(model) <= v.at.y.hi) {
     double y = floor(sb_axis_at(&v.at.y, sb_model_pressure_force(model))) + 0.5;
     SbPoint line[2] = {{fmax(sb_axis_at(&v.at.x, 0), plot.x), y}, {plot.x + plot.width, y}};
-    sb_canvas_pen(c, 1.2, &sb_dash_reference);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_FLUID), 1);
-    cairo_move_to(cr, line[0].x, line[0].y);
-    cairo_line_to(cr, line[1].x, line[1].y);
-    cairo_stroke(cr);
+    sb_canvas_line(c, (SbStroke){SB_ROLE_FLUID, 1.2, &sb_dash_reference}, line[0].x, line[0].y,
+                   line[1].x, line[1].y);
     sb_labels_avoid(v.labels, line, 2, 1);
   }
   // An enlarged part ends with the plot, where no strip of differences lies below.
-  const SbRect in = inner_rect(rect, flags);
   cairo_save(cr);
   if (data->zoom != NULL) {
     const double bottom = data->measured != NULL ? in.y + in.height : plot.y + plot.height;
@@ -444,7 +377,7 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
     }
     draw_loop(&v);
     if (data->measured != NULL) {
-      sb_hysteresis_measured(&v, inner_rect(rect, flags));
+      sb_hysteresis_measured(&v, sb_frame_inner(rect, flags & SB_CHART_PANEL));
     }
     draw_arrows(&v);
     if (!whole) {
@@ -470,7 +403,7 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
 
 bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags,
                        double x, double y, double reach) {
-  SbHysteresisLayout at;
+  SbAxes at;
   const SbChartRun *run = &data->run;
   sb_hysteresis_layout(&at, rect, data, flags);
   size_t n = 0;

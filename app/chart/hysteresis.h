@@ -7,23 +7,12 @@
 #include "app/draw/axis.h"
 #include "app/draw/canvas.h"
 
-// Positions in the chart.
-typedef struct {
-  SbRect plot;  // area of the curves
-  SbScale x, y; // displacement [mm], force [N]
-  SbTicks x_ticks, y_ticks;
-} SbHysteresisLayout;
-
 // Draws the chart into `rect`.
 void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                         unsigned flags);
 
-// Writes the positions with which sb_hysteresis_draw() draws.
-void sb_hysteresis_layout(SbHysteresisLayout *out, SbRect rect, const SbChartData *data,
-                          unsigned flags);
-
-// Returns whether a pixel is in the plot.
-bool sb_hysteresis_in_plot(const SbHysteresisLayout *at, SbPoint p);
+// Writes the axes with which sb_hysteresis_draw() draws: displacement [mm] and force [N].
+void sb_hysteresis_layout(SbAxes *out, SbRect rect, const SbChartData *data, unsigned flags);
 
 // Largest enlargement.
 enum { SB_HYSTERESIS_ZOOM_MAX = 200 };

@@ -42,16 +42,15 @@ char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement) {
 
 bool sb_hysteresis_cursor(double *displacement, SbRect rect, const SbChartData *data,
                           unsigned flags, double x, double y) {
-  SbHysteresisLayout at;
+  SbAxes at;
   sb_hysteresis_layout(&at, rect, data, flags);
   *displacement = 1e-3 * sb_axis_value(&at.x, x);
-  return data->run.count > 0 && x >= at.plot.x && x <= at.plot.x + at.plot.width &&
-         y >= at.plot.y && y <= at.plot.y + at.plot.height;
+  return data->run.count > 0 && sb_axes_inside(&at, x, y, 0);
 }
 
 void sb_hysteresis_cursor_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                                const SbChartData *data, unsigned flags, double displacement) {
-  SbHysteresisLayout at;
+  SbAxes at;
   double force[2];
   sb_hysteresis_layout(&at, rect, data, flags);
   sb_hysteresis_forces(force, &data->run, displacement);

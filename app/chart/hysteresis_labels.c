@@ -3,6 +3,7 @@
 // the run's end. Order is importance: the collision rule serves *now* first.
 #include "app/base/figure_text.h"
 #include "app/chart/hysteresis_private.h"
+#include "app/draw/cursor.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -51,7 +52,7 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
   // All dots first: labels keep off every one of them.
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
     SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
-    if (mark[s].reached && sb_hysteresis_in_plot(&v->at, p)) {
+    if (mark[s].reached && sb_axes_inside(&v->at, p.x, p.y, 0)) {
       sb_canvas_ringed_dot(c, p.x, p.y, ink);
       sb_labels_block(v->labels, (SbRect){p.x - 5, p.y - 5, 10, 10});
     }
@@ -63,7 +64,7 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
       continue;
     }
     SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
-    if (!sb_hysteresis_in_plot(&v->at, p)) {
+    if (!sb_axes_inside(&v->at, p.x, p.y, 0)) {
       continue;
     }
     char value[SB_FORMAT_MAX] = "";
@@ -109,21 +110,15 @@ void sb_hysteresis_marks(SbHysteresisView *v) {
 void sb_hysteresis_now(SbHysteresisView *v, bool line) {
   const SbFrame *frame = sb_chart_frame(v->data);
   SbCanvas *c = &v->canvas;
-  SbColor now = sb_canvas_role(c, SB_ROLE_NOW);
   SbPoint p = sb_hysteresis_pixel(&v->at, frame->displacement, frame->force);
   double bottom = v->at.plot.y + v->at.plot.height;
   if (line) {
-    sb_canvas_pen(c, 1, &sb_dash_now);
-    sb_canvas_color(c, now, 1);
-    cairo_move_to(c->cr, p.x, p.y);
-    cairo_line_to(c->cr, p.x, bottom);
-    cairo_stroke(c->cr);
+    sb_cursor_drop(c, p, bottom);
     SbPoint drop[2] = {p, {p.x, bottom}};
     sb_labels_avoid(v->labels, drop, 2, 3);
     return;
   }
-  sb_canvas_dot(c, p.x, p.y, 8, sb_canvas_role(c, SB_ROLE_PANEL));
-  sb_canvas_dot(c, p.x, p.y, 6, now);
+  sb_cursor_now(c, p);
 }
 
 void sb_hysteresis_label_now(SbHysteresisView *v) {
@@ -143,20 +138,14 @@ void sb_hysteresis_label_now(SbHysteresisView *v) {
       {p.x - 10, p.y + 24, SB_RIGHT}, {p.x, p.y + 24, SB_MIDDLE},    {p.x + 14, p.y - 30, SB_LEFT},
       {p.x - 14, p.y - 30, SB_RIGHT},
   };
-  SbPlace at;
-  if (sb_labels_place(v->labels, c, text, &style, places, G_N_ELEMENTS(places), &at)) {
-    sb_labels_draw(v->labels, c, text, &style, &at);
-  }
+  sb_labels_put(v->labels, c, text, &style, places, G_N_ELEMENTS(places));
 }
 
 static void label_curve(SbHysteresisView *v, const char *text, SbRole role, const SbPlace *place,
                         int count) {
   SbCanvas *c = &v->canvas;
-  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, role);
-  SbPlace at;
-  if (sb_labels_place(v->labels, c, text, &style, place, count, &at)) {
-    sb_labels_draw(v->labels, c, text, &style, &at);
-  }
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, role);
+  sb_labels_put(v->labels, c, text, &style, place, count);
 }
 
 // Point of the curve at a share of the way in frames from a stage of a cycle to what follows it.

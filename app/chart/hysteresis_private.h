@@ -8,14 +8,14 @@
 // The chart; sb_hysteresis_draw() fills it before it calls the functions below.
 typedef struct {
   SbCanvas canvas;
-  SbHysteresisLayout at;
+  SbAxes at;
   SbLabels *labels;        // occupied by the labels so far
   const SbChartData *data; // borrowed
   unsigned flags;          // SB_CHART_PANEL, ...
 } SbHysteresisView;
 
 // Returns the pixel of a displacement [m] and a force [N].
-SbPoint sb_hysteresis_pixel(const SbHysteresisLayout *at, double displacement, double force);
+SbPoint sb_hysteresis_pixel(const SbAxes *at, double displacement, double force);
 
 // Draws dots and letters of the stages that were reached.
 void sb_hysteresis_marks(SbHysteresisView *v);

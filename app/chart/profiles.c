@@ -10,6 +10,9 @@
 #include "app/draw/axis.h"
 #include "app/draw/label.h"
 
+#include "app/draw/frame.h"
+#include "app/draw/legend.h"
+
 #include <glib.h>
 #include <glib/gi18n.h>
 #include <math.h>
@@ -18,8 +21,7 @@
 // One of the four small charts.
 typedef struct {
   SbCanvas *canvas;
-  SbRect plot;
-  SbScale x, y;
+  SbAxes at;
   SbLabels *labels;
   const SbChartData *data;
   const SbSealFrame *seal; // NULL: no frame at all
@@ -57,7 +59,7 @@ static SbTraceRange range_of(const SbChartData *data) {
   return r;
 }
 
-static void position_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
+static void position_scale(SbAxes *at, const SbChartData *data) {
   SbTraceRange r = range_of(data);
   double lo = r.contact_left * 1e3, hi = r.contact_right * 1e3;
   if (!(hi > lo)) {
@@ -65,33 +67,34 @@ static void position_scale(SbScale *out, SbTicks *ticks, const SbChartData *data
     hi = 0.5;
   }
   // Room beside the contact for the fluid's pressure and the film's mouth.
-  double room = CLAMP(64 / plot.width, 0.20, 0.25);
+  double room = CLAMP(64 / at->plot.width, 0.20, 0.25);
   double margin = (hi - lo) * room / (1 - 2 * room);
-  *out = (SbScale){lo - margin, hi + margin, plot.x, plot.x + plot.width, false};
-  sb_axis_ticks(ticks, out->lo, out->hi, 3);
+  sb_axes_linear(at, at->plot, lo - margin, hi + margin, 0, 1);
+  sb_axes_ticks(at, 3, 0);
 }
 
-static void pressure_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
+static void pressure_scale(SbAxes *at, const SbChartData *data) {
   const SbModel *model = data->run.model;
   double top = fmax(range_of(data).pressure_peak_max,
                     model ? sb_model_value(model, SB_P_CANISTER_PRESSURE) : 0) *
                1e-6;
   // Head-room for the peak's label, at least 26 px.
-  double room = plot.height > 80 ? plot.height / (plot.height - 30) : 1.3;
-  *out = (SbScale){0, (top > 0 ? top : 1) * room, plot.y + plot.height, plot.y, false};
-  sb_axis_ticks(ticks, out->lo, out->hi, plot.height > 200 ? 5 : 3);
+  const double height = at->plot.height, room = height > 80 ? height / (height - 30) : 1.3;
+  at->y.hi = (top > 0 ? top : 1) * room;
+  sb_axis_ticks(&at->y_ticks, 0, at->y.hi, height > 200 ? 5 : 3);
 }
 
-static void film_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, SbRect plot) {
+static void film_scale(SbAxes *at, const SbChartData *data) {
   const SbModel *model = data->run.model;
   SbTraceRange r = range_of(data);
   double least = r.film_min > 0 ? r.film_min : 1e-9;
   double most = fmax(r.film_max, model ? sb_model_sigma(model) : 1e-6);
-  *out = (SbScale){0.38 * least, 45 * most, plot.y + plot.height, plot.y, true};
-  sb_axis_log_ticks(ticks, out->lo, out->hi);
+  at->y = (SbScale){0.38 * least, 45 * most, at->y.p0, at->y.p1, true};
+  SbTicks *ticks = &at->y_ticks;
+  sb_axis_log_ticks(ticks, at->y.lo, at->y.hi);
   // Not closer than 18 px.
   int stride = 1;
-  while (ticks->count > 1 && plot.height * stride / (log10(out->hi / out->lo)) < 18 &&
+  while (ticks->count > 1 && at->plot.height * stride / (log10(at->y.hi / at->y.lo)) < 18 &&
          stride < ticks->count) {
     stride++;
   }
@@ -107,45 +110,13 @@ static void film_scale(SbScale *out, SbTicks *ticks, const SbChartData *data, Sb
 // ---------------------------------------------------------------------------------------------------
 // Parts of one small chart
 
-static void small_axes(Small *s, const SbTicks *xt, const SbTicks *yt, bool film, bool numbers) {
-  SbCanvas *c = s->canvas;
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  double left = s->plot.x, right = left + s->plot.width, bottom = s->plot.y + s->plot.height;
-  char text[SB_FORMAT_MAX];
-  for (int i = 0; i < yt->count; i++) {
-    double y = sb_axis_at(&s->y, yt->value[i]);
-    if (y < s->plot.y - 0.5 || y > bottom + 0.5) {
-      continue;
-    }
-    sb_canvas_hairline(c, left, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
-    SbPoint line[2] = {{left, y}, {right, y}};
-    sb_labels_avoid(s->labels, line, 2, 0.01);
-    if (numbers) {
-      if (film) {
-        sb_format_film_tick(text, yt->value[i]);
-      } else {
-        sb_format_fixed(text, yt->value[i], yt->decimals);
-      }
-      sb_canvas_text(c, text, &label, left - 8, y + 4.3, SB_RIGHT);
-    }
-  }
-  sb_canvas_hairline(c, left, bottom, right, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
-  for (int i = 0; i < xt->count; i++) {
-    double x = sb_axis_at(&s->x, xt->value[i]);
-    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
-    sb_format_fixed(text, xt->value[i], xt->decimals);
-    sb_canvas_text(c, text, &label, floor(x) + 0.5, bottom + 18, SB_MIDDLE);
-  }
+static void film_text(char *out, const SbTicks *ticks, double value) {
+  sb_format_film_tick(out, value);
 }
 
 static bool small_label(Small *s, const char *text, const SbTextStyle *style, const SbPlace *place,
                         int count) {
-  SbPlace at;
-  if (!sb_labels_place(s->labels, s->canvas, text, style, place, count, &at)) {
-    return false;
-  }
-  sb_labels_draw(s->labels, s->canvas, text, style, &at);
-  return true;
+  return sb_labels_put(s->labels, s->canvas, text, style, place, count);
 }
 
 // A figure of the seal at this instant, with the unit, the digits and the error of the figure
@@ -165,8 +136,8 @@ static void asperity_share(Small *s, const SbContactCurve *curve, double left, d
   size_t n = 0, top = 0;
   for (size_t i = 0; i < curve->count; i++) {
     if (curve->x[i] >= left && curve->x[i] <= right) {
-      p[n] = (SbPoint){sb_axis_at(&s->x, curve->x[i] * 1e3),
-                       sb_axis_at(&s->y, curve->asperity[i] * 1e-6)};
+      p[n] = (SbPoint){sb_axis_at(&s->at.x, curve->x[i] * 1e3),
+                       sb_axis_at(&s->at.y, curve->asperity[i] * 1e-6)};
       top = p[n].y < p[top].y ? n : top;
       n++;
     }
@@ -178,7 +149,7 @@ static void asperity_share(Small *s, const SbContactCurve *curve, double left, d
     sb_labels_avoid(s->labels, p, n, 1);
     SbTextStyle style = {SB_TYPE_NOTE, 400, s->color, 1};
     // Low over the axis the curve's foot and the width's figure are in the way: beside it there.
-    double bottom = s->plot.y + s->plot.height;
+    double bottom = s->at.plot.y + s->at.plot.height;
     bool low = p[top].y > bottom - 24;
     const SbPlace places[] = {{p[n - 1].x + 8, fmin(p[top].y, bottom - 7), SB_LEFT},
                               {p[top].x, p[top].y - 6, SB_MIDDLE},
@@ -195,9 +166,10 @@ static void fluid_ground(Small *s, double from, double to, double pressure) {
   }
   SbCanvas *c = s->canvas;
   SbColor fluid = sb_canvas_role(c, SB_ROLE_FLUID);
-  double x0 = CLAMP(sb_axis_at(&s->x, from * 1e3), s->plot.x, s->plot.x + s->plot.width);
-  double x1 = CLAMP(sb_axis_at(&s->x, to * 1e3), s->plot.x, s->plot.x + s->plot.width);
-  double y = sb_axis_at(&s->y, pressure * 1e-6), bottom = s->plot.y + s->plot.height;
+  double x0 =
+      CLAMP(sb_axis_at(&s->at.x, from * 1e3), s->at.plot.x, s->at.plot.x + s->at.plot.width);
+  double x1 = CLAMP(sb_axis_at(&s->at.x, to * 1e3), s->at.plot.x, s->at.plot.x + s->at.plot.width);
+  double y = sb_axis_at(&s->at.y, pressure * 1e-6), bottom = s->at.plot.y + s->at.plot.height;
   sb_canvas_color(c, fluid, 0.15);
   cairo_rectangle(c->cr, x0, y, x1 - x0, bottom - y);
   cairo_fill(c->cr);
@@ -214,9 +186,9 @@ static void fluid_label(Small *s, double from, double to, double pressure) {
   if (!(pressure > 0)) {
     return;
   }
-  double x0 = fmax(sb_axis_at(&s->x, from * 1e3), s->plot.x);
-  double x1 = fmin(sb_axis_at(&s->x, to * 1e3), s->plot.x + s->plot.width);
-  double y = sb_axis_at(&s->y, pressure * 1e-6);
+  double x0 = fmax(sb_axis_at(&s->at.x, from * 1e3), s->at.plot.x);
+  double x1 = fmin(sb_axis_at(&s->at.x, to * 1e3), s->at.plot.x + s->at.plot.width);
+  double y = sb_axis_at(&s->at.y, pressure * 1e-6);
   char value[SB_FORMAT_MAX], text[64];
   sb_format_given(value, SB_QUANTITY_PRESSURE, pressure);
   g_snprintf(text, sizeof text, _("fluid %s"), value);
@@ -240,11 +212,11 @@ static void common_label(Small *s) {
   sb_format_given(value, SB_QUANTITY_PRESSURE, common);
   g_snprintf(text, sizeof text, _("fluid %s on both sides"), value);
   SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_NOTE, 400, SB_ROLE_FLUID);
-  double left = s->plot.x + 4, right = s->plot.x + s->plot.width - 4;
+  double left = s->at.plot.x + 4, right = s->at.plot.x + s->at.plot.width - 4;
   small_label(s, text, &style,
-              (SbPlace[]){{left, s->plot.y + 12, SB_LEFT},
-                          {right, s->plot.y + 12, SB_RIGHT},
-                          {left, s->plot.y + 30, SB_LEFT}},
+              (SbPlace[]){{left, s->at.plot.y + 12, SB_LEFT},
+                          {right, s->at.plot.y + 12, SB_RIGHT},
+                          {left, s->at.plot.y + 30, SB_LEFT}},
               3);
 }
 
@@ -253,16 +225,18 @@ static SbPoint *pressure_points(const Small *s, const SbContactCurve *curve, dou
                                 double right, size_t *count) {
   SbPoint *p = g_new(SbPoint, curve->count + 2);
   size_t n = 0;
-  p[n++] = (SbPoint){sb_axis_at(&s->x, left * 1e3),
-                     sb_axis_at(&s->y, sb_contact_curve_at(curve, curve->pressure, left) * 1e-6)};
+  p[n++] =
+      (SbPoint){sb_axis_at(&s->at.x, left * 1e3),
+                sb_axis_at(&s->at.y, sb_contact_curve_at(curve, curve->pressure, left) * 1e-6)};
   for (size_t i = 0; i < curve->count; i++) {
     if (curve->x[i] > left && curve->x[i] < right) {
-      p[n++] = (SbPoint){sb_axis_at(&s->x, curve->x[i] * 1e3),
-                         sb_axis_at(&s->y, curve->pressure[i] * 1e-6)};
+      p[n++] = (SbPoint){sb_axis_at(&s->at.x, curve->x[i] * 1e3),
+                         sb_axis_at(&s->at.y, curve->pressure[i] * 1e-6)};
     }
   }
-  p[n++] = (SbPoint){sb_axis_at(&s->x, right * 1e3),
-                     sb_axis_at(&s->y, sb_contact_curve_at(curve, curve->pressure, right) * 1e-6)};
+  p[n++] =
+      (SbPoint){sb_axis_at(&s->at.x, right * 1e3),
+                sb_axis_at(&s->at.y, sb_contact_curve_at(curve, curve->pressure, right) * 1e-6)};
   *count = n;
   return p;
 }
@@ -275,7 +249,8 @@ static SbPoint *film_points(const Small *s, const SbContactCurve *curve, const S
   const double from = seal->land_fraction < 0.999F ? seal->contact_left : -1;
   for (size_t i = 0; i < curve->count; i++) {
     if (curve->x[i] >= from && curve->film[i] > 0) {
-      p[n++] = (SbPoint){sb_axis_at(&s->x, curve->x[i] * 1e3), sb_axis_at(&s->y, curve->film[i])};
+      p[n++] =
+          (SbPoint){sb_axis_at(&s->at.x, curve->x[i] * 1e3), sb_axis_at(&s->at.y, curve->film[i])};
     }
   }
   *count = n;
@@ -304,9 +279,7 @@ static void other_curve(Small *s, const SbChartRun *run, const SbSealFrame *seal
   contact_ends(&curve, seal, &left, &right);
   SbPoint *p =
       film ? film_points(s, &curve, seal, &n) : pressure_points(s, &curve, left, right, &n);
-  cairo_save(c->cr);
-  cairo_rectangle(c->cr, s->plot.x, s->plot.y, s->plot.width, s->plot.height);
-  cairo_clip(c->cr);
+  sb_canvas_clip(c, s->at.plot);
   sb_canvas_polyline(c, p, n);
   cairo_restore(c->cr);
   sb_labels_avoid(s->labels, p, n, 0.7);
@@ -318,8 +291,7 @@ static void other_curve(Small *s, const SbChartRun *run, const SbSealFrame *seal
 static void pinned_curves(Small *s, bool film) {
   for (size_t i = 0; i < s->data->pin_count; i++) {
     const SbChartPin *pin = &s->data->pin[i];
-    sb_canvas_pen(s->canvas, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
-    sb_canvas_color(s->canvas, sb_canvas_role(s->canvas, sb_chart_pin_role(pin->look)), 1);
+    sb_canvas_stroke(s->canvas, sb_chart_pin_stroke(pin->look));
     other_curve(s, pin->run, &pin->run->frames[pin->frame].seal[s->index], film);
   }
 }
@@ -339,14 +311,14 @@ static const SbSealFrame *predicted_seal(const SbChartData *data, int index, boo
 static void pressure_chart(Small *s) {
   SbCanvas *c = s->canvas;
   const SbSealFrame *seal = s->seal;
-  double bottom = s->plot.y + s->plot.height;
+  double bottom = s->at.plot.y + s->at.plot.height;
   const double far = 1;
   if (!sb_contact_touches(seal)) {
     double side = seal ? fmax(sb_seal_step_left(seal), sb_seal_step_right(seal)) : 0;
     fluid_ground(s, -far, far, side);
     fluid_label(s, -far, far, side);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
-    double x = s->plot.x + 0.5 * s->plot.width, y = s->plot.y + 0.5 * s->plot.height;
+    double x = s->at.plot.x + 0.5 * s->at.plot.width, y = s->at.plot.y + 0.5 * s->at.plot.height;
     small_label(s, seal ? _("no contact") : _("no run yet"), &note,
                 (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 30, SB_MIDDLE}, {x, y + 30, SB_MIDDLE}}, 3);
     common_label(s);
@@ -383,7 +355,7 @@ static void pressure_chart(Small *s) {
   // Peak, width, fluid.
   char value[SB_FORMAT_MAX], text[96];
   if (peak > 0) {
-    double x = sb_axis_at(&s->x, peak_x * 1e3), y = sb_axis_at(&s->y, peak * 1e-6);
+    double x = sb_axis_at(&s->at.x, peak_x * 1e3), y = sb_axis_at(&s->at.y, peak * 1e-6);
     sb_canvas_dot(c, x, y, 2.6, s->color);
     seal_figure(value, s, "pressure_peak_Pa", seal->pressure_peak);
     g_snprintf(text, sizeof text, _("peak %s"), value);
@@ -392,19 +364,19 @@ static void pressure_chart(Small *s) {
                 (SbPlace[]){{x, y - 9, SB_MIDDLE},
                             {x + 8, y - 9, SB_LEFT},
                             {x - 8, y - 9, SB_RIGHT},
-                            {s->plot.x + 4, s->plot.y + 10, SB_LEFT}},
+                            {s->at.plot.x + 4, s->at.plot.y + 10, SB_LEFT}},
                 4);
   }
   // The width is the frame's contact, whatever the curve's feet.
   double wide = seal->contact_right - seal->contact_left;
-  double middle = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));
+  double middle = sb_axis_at(&s->at.x, 0.5e3 * (seal->contact_left + seal->contact_right));
   seal_figure(value, s, "contact_width_m", wide);
   SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   double width = sb_canvas_text_width(c, value, &strong) + 8;
-  double room = sb_axis_at(&s->x, wide * 1e3) - sb_axis_at(&s->x, 0);
+  double room = sb_axis_at(&s->at.x, wide * 1e3) - sb_axis_at(&s->at.x, 0);
   SbPlace at;
   const SbPlace widths[] = {{middle, bottom - 8, SB_MIDDLE},
-                            {sb_axis_at(&s->x, right * 1e3) + 8, bottom - 8, SB_LEFT}};
+                            {sb_axis_at(&s->at.x, right * 1e3) + 8, bottom - 8, SB_LEFT}};
   // Inside if it fits, else beside.
   bool inside = width < room;
   if (sb_labels_place(s->labels, c, value, &strong, inside ? widths : widths + 1, 1, &at)) {
@@ -421,7 +393,7 @@ static void pressure_chart(Small *s) {
                100.0 * (double)seal->land_fraction);
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
     // The land's edge takes the canister side away: there is room on that side.
-    double edge = sb_axis_at(&s->x, seal->contact_left * 1e3) - 6;
+    double edge = sb_axis_at(&s->at.x, seal->contact_left * 1e3) - 6;
     small_label(s, text, &note,
                 (SbPlace[]){{edge, bottom - 8, SB_RIGHT},
                             {edge, bottom - 26, SB_RIGHT},
@@ -435,9 +407,9 @@ static void pressure_chart(Small *s) {
 // least next to the curve; where that would cross the curve, with the word on a line of its own.
 static void narrow_label(Small *s, const char *const *value, int count, const SbTextStyle *style,
                          const SbSealFrame *seal, double y) {
-  const double right_px = s->plot.x + s->plot.width;
-  const double left = sb_axis_at(&s->x, seal->contact_left * 1e3) - 8;
-  const double right = sb_axis_at(&s->x, seal->contact_right * 1e3) + 8;
+  const double right_px = s->at.plot.x + s->at.plot.width;
+  const double left = sb_axis_at(&s->at.x, seal->contact_left * 1e3) - 8;
+  const double right = sb_axis_at(&s->at.x, seal->contact_right * 1e3) + 8;
   const double x = 0.5 * (left + right), line = 17;
   char text[SB_FORMAT_MAX + 24];
   g_snprintf(text, sizeof text, count > 1 ? C_("film", "least %s") : "%s", value[count - 1]);
@@ -451,12 +423,12 @@ static void narrow_label(Small *s, const char *const *value, int count, const Sb
   if (!small_label(s, text, style, clear, 4)) {
     // In three lines within the contact, or on the side of it that has more room.
     const double wide = sb_canvas_text_width(s->canvas, value[count - 1], style);
-    const bool inside = right - left - 24 >= wide, before = left - s->plot.x > right_px - right;
+    const bool inside = right - left - 24 >= wide, before = left - s->at.plot.x > right_px - right;
     const SbPlace at = inside   ? (SbPlace){x, y - 9, SB_MIDDLE}
                        : before ? (SbPlace){left, y - 9, SB_RIGHT}
                                 : (SbPlace){right, y - 9, SB_LEFT};
     const bool beside =
-        count > 1 && (inside || fmax(left - s->plot.x, right_px - right) >= wide) &&
+        count > 1 && (inside || fmax(left - s->at.plot.x, right_px - right) >= wide) &&
         small_label(s, value[count - 1], style, &at, 1) &&
         small_label(s, C_("film", "least"), style, &(SbPlace){at.x, at.y - line, at.align}, 1);
     s->labels->crossing_max = crossing_max;
@@ -484,22 +456,17 @@ static void film_chart(Small *s) {
   SbCanvas *c = s->canvas;
   cairo_t *cr = c->cr;
   const SbSealFrame *seal = s->seal;
-  double left_px = s->plot.x, right_px = left_px + s->plot.width;
-  double bottom = s->plot.y + s->plot.height;
+  double left_px = s->at.plot.x, right_px = left_px + s->at.plot.width;
+  double bottom = s->at.plot.y + s->at.plot.height;
   char value[SB_FORMAT_MAX], least[SB_FORMAT_MAX], text[128];
 
   // Roughness, dashed, and its label.
   double sigma = s->data->run.model ? sb_model_sigma(s->data->run.model) : 0;
-  double sigma_y = sigma > 0 ? sb_axis_at(&s->y, sigma) : -1e9;
-  if (sigma_y > s->plot.y && sigma_y < bottom) {
+  double sigma_y = sigma > 0 ? sb_axis_at(&s->at.y, sigma) : -1e9;
+  if (sigma_y > s->at.plot.y && sigma_y < bottom) {
     double y = floor(sigma_y) + 0.5;
-    SbPoint line[2] = {{left_px, y}, {right_px, y}};
-    sb_canvas_pen(c, 1.2, &sb_dash_reference);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
-    cairo_move_to(cr, line[0].x, y);
-    cairo_line_to(cr, line[1].x, y);
-    cairo_stroke(cr);
-    sb_labels_avoid(s->labels, line, 2, 1);
+    sb_canvas_line(c, (SbStroke){SB_ROLE_SECOND, 1.2, &sb_dash_reference}, left_px, y, right_px, y);
+    sb_labels_avoid(s->labels, (SbPoint[]){{left_px, y}, {right_px, y}}, 2, 1);
   }
   bool slides = sb_contact_touches(seal) && seal->film_central > 0;
   SbContactCurve curve = {0};
@@ -507,9 +474,7 @@ static void film_chart(Small *s) {
     sb_contact_curve_init(&curve, &s->data->run, s->seal, s->index);
     size_t n = 0;
     g_autofree SbPoint *p = film_points(s, &curve, seal, &n);
-    cairo_save(cr);
-    cairo_rectangle(cr, left_px, s->plot.y, s->plot.width, s->plot.height);
-    cairo_clip(cr);
+    sb_canvas_clip(c, (SbRect){left_px, s->at.plot.y, s->at.plot.width, s->at.plot.height});
     sb_canvas_pen(c, SB_LINE_SEAL, NULL);
     sb_canvas_color(c, s->color, 1);
     sb_canvas_polyline(c, p, n);
@@ -517,15 +482,15 @@ static void film_chart(Small *s) {
     sb_labels_avoid(s->labels, p, n, 1);
 
     // Central and least film above the flat.
-    double x = sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right));
-    double y = sb_axis_at(&s->y, seal->film_central);
+    double x = sb_axis_at(&s->at.x, 0.5e3 * (seal->contact_left + seal->contact_right));
+    double y = sb_axis_at(&s->at.y, seal->film_central);
     seal_figure(value, s, "film_central_m", seal->film_central);
     seal_figure(least, s, "film_min_m", seal->film_min);
     bool uniform = seal->film_min >= 0.995 * seal->film_central;
     SbTextStyle style = {SB_TYPE_LABEL, 600, s->color, 1};
     g_snprintf(text, sizeof text, uniform ? _("%s, uniform") : _("%s, least %s"), value, least);
-    double room =
-        sb_axis_at(&s->x, seal->contact_right * 1e3) - sb_axis_at(&s->x, seal->contact_left * 1e3);
+    double room = sb_axis_at(&s->at.x, seal->contact_right * 1e3) -
+                  sb_axis_at(&s->at.x, seal->contact_left * 1e3);
     if (sb_canvas_text_width(c, text, &style) + 8 <= room) {
       small_label(s, text, &style, (SbPlace[]){{x, y - 9, SB_MIDDLE}, {x, y - 24, SB_MIDDLE}}, 2);
     } else {
@@ -534,7 +499,7 @@ static void film_chart(Small *s) {
     }
   } else {
     SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
-    double x = left_px + 0.5 * s->plot.width, y = s->plot.y + 0.62 * s->plot.height;
+    double x = left_px + 0.5 * s->at.plot.width, y = s->at.plot.y + 0.62 * s->at.plot.height;
     const char *words = !seal                                    ? _("no run yet")
                         : !sb_contact_touches(seal)              ? _("no contact")
                         : sb_chart_frame(s->data)->velocity != 0 ? _("no liquid: no film")
@@ -542,13 +507,13 @@ static void film_chart(Small *s) {
     small_label(s, words, &note, (SbPlace[]){{x, y, SB_MIDDLE}, {x, y - 20, SB_MIDDLE}}, 2);
   }
 
-  if (sigma_y > s->plot.y && sigma_y < bottom) {
+  if (sigma_y > s->at.plot.y && sigma_y < bottom) {
     sb_format_given(value, SB_QUANTITY_FILM, sigma);
     g_snprintf(text, sizeof text, _("roughness \xcf\x83 %s"), value);
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
     double x = sb_contact_touches(seal)
-                   ? sb_axis_at(&s->x, 0.5e3 * (seal->contact_left + seal->contact_right))
-                   : left_px + 0.5 * s->plot.width;
+                   ? sb_axis_at(&s->at.x, 0.5e3 * (seal->contact_left + seal->contact_right))
+                   : left_px + 0.5 * s->at.plot.width;
     small_label(s, text, &style,
                 (SbPlace[]){{x, sigma_y + 15, SB_MIDDLE},
                             {x, sigma_y - 6, SB_MIDDLE},
@@ -557,10 +522,10 @@ static void film_chart(Small *s) {
                 4);
   }
   // A name needs a band that can be seen: a film well above it leaves a sliver at the bottom.
-  double band = bottom - sb_axis_at(&s->y, SB_CONTINUUM_LIMIT);
+  double band = bottom - sb_axis_at(&s->at.y, SB_CONTINUUM_LIMIT);
   if (band >= 8 && !*s->band_named) {
     SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_WARN);
-    double y = fmin(sb_axis_at(&s->y, SB_CONTINUUM_LIMIT) + 13, bottom - 5);
+    double y = fmin(sb_axis_at(&s->at.y, SB_CONTINUUM_LIMIT) + 13, bottom - 5);
     // Once is enough: both charts share the scale. Over a curve only if there is no other way.
     s->labels->crossing_max = s->index == SB_INNER ? 1 : INFINITY;
     *s->band_named = small_label(s, _("below continuum"), &style,
@@ -575,12 +540,11 @@ static void film_chart(Small *s) {
 
 // A band where a film is thinner than a few molecules.
 static void continuum_band(Small *s) {
-  double y = sb_axis_at(&s->y, SB_CONTINUUM_LIMIT), bottom = s->plot.y + s->plot.height;
+  double y = sb_axis_at(&s->at.y, SB_CONTINUUM_LIMIT), bottom = s->at.plot.y + s->at.plot.height;
   if (y < bottom) {
-    y = fmax(y, s->plot.y);
-    sb_canvas_color(s->canvas, sb_canvas_role(s->canvas, SB_ROLE_WARN), 0.13);
-    cairo_rectangle(s->canvas->cr, s->plot.x, y, s->plot.width, bottom - y);
-    cairo_fill(s->canvas->cr);
+    y = fmax(y, s->at.plot.y);
+    sb_canvas_fill(s->canvas, (SbRect){s->at.plot.x, y, s->at.plot.width, bottom - y}, SB_ROLE_WARN,
+                   0.13);
   }
 }
 
@@ -603,14 +567,16 @@ static const char *curve_model(const SbChartData *data, const SbFrame *frame, bo
 }
 
 // Where a panel puts the chart of a seal.
-static void layout(Small *s, SbTicks *xt, SbTicks *yt, SbRect in, unsigned flags, bool film) {
+static void layout(Small *s, SbRect in, unsigned flags, bool film) {
   const double numbers = film ? 54 : 34, gap = in.width > 500 ? 44 : 20;
   const double top = in.y + (flags & SB_CHART_COMPACT ? 42 : 48), bottom = in.y + in.height - 22;
   const double each = 0.5 * (in.width - numbers - gap - 10);
   const int place = s->index == SB_INNER ? 0 : 1; // numbers at the left one only
-  s->plot = (SbRect){in.x + numbers + place * (each + gap), top, each, fmax(bottom - top, 30)};
-  position_scale(&s->x, xt, s->data, s->plot);
-  (film ? film_scale : pressure_scale)(&s->y, yt, s->data, s->plot);
+  s->at.plot = (SbRect){in.x + numbers + place * (each + gap), top, each, fmax(bottom - top, 30)};
+  s->at.bare = place > 0;
+  s->at.y_text = film ? film_text : NULL;
+  position_scale(&s->at, s->data);
+  (film ? film_scale : pressure_scale)(&s->at, s->data);
 }
 
 static SbRect inner_rect(SbRect rect, unsigned flags) {
@@ -625,12 +591,10 @@ bool sb_profiles_read(SbProfileReading *out, SbRect rect, const SbChartData *dat
   const SbFrame *frame = sb_chart_frame(data);
   for (int index = 0; frame != NULL && index < SB_SEAL_COUNT; index++) {
     Small s = {.data = data, .index = index, .seal = &frame->seal[index]};
-    SbTicks xt, yt;
-    layout(&s, &xt, &yt, inner_rect(rect, flags), flags, film);
-    const double position = 1e-3 * sb_axis_value(&s.x, x);
-    const bool inside = x >= s.plot.x && x <= s.plot.x + s.plot.width && y >= s.plot.y &&
-                        y <= s.plot.y + s.plot.height;
-    if (!inside || !sb_contact_touches(s.seal) || (film && !(s.seal->film_central > 0))) {
+    layout(&s, inner_rect(rect, flags), flags, film);
+    const double position = 1e-3 * sb_axis_value(&s.at.x, x);
+    if (!sb_axes_inside(&s.at, x, y, 0) || !sb_contact_touches(s.seal) ||
+        (film && !(s.seal->film_central > 0))) {
       continue;
     }
     SbContactCurve curve;
@@ -645,8 +609,8 @@ bool sb_profiles_read(SbProfileReading *out, SbRect rect, const SbChartData *dat
       *out = (SbProfileReading){.seal = index,
                                 .position = position,
                                 .value = value,
-                                .plot = s.plot,
-                                .at = {x, sb_axis_at(&s.y, film ? value : 1e-6 * value)}};
+                                .plot = s.at.plot,
+                                .at = {x, sb_axis_at(&s.at.y, film ? value : 1e-6 * value)}};
       return true;
     }
   }
@@ -665,12 +629,6 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   }
   const SbRect in = inner_rect(rect, flags);
 
-  // Title and the line beside it.
-  SbTextStyle title =
-      sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  double width = sb_canvas_text(c, film ? _("Film thickness") : _("Contact pressure"), &title, in.x,
-                                in.y + 14, SB_LEFT);
   char note[160];
   if (film) {
     const bool gasket = sb_model_is_gasket(data->run.model);
@@ -697,10 +655,11 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   }
   const bool predicted =
       predicted_seal(data, SB_INNER, film) != NULL || predicted_seal(data, SB_OUTER, film) != NULL;
-  const double key = predicted ? sb_canvas_predicted(c, in.x + in.width, in.y + 14) + 12 : 0;
-  sb_canvas_text_fit(c, note, &label, in.x + width + 12, in.y + 14, in.width - width - 12 - key);
+  const double key = predicted ? sb_legend_predicted(c, in.x + in.width, in.y + 14) + 12 : 0;
+  sb_frame_title(c, (SbRect){in.x, in.y, in.width - key, in.height},
+                 compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL,
+                 film ? _("Film thickness") : _("Contact pressure"), note);
 
-  SbTicks xt, yt;
   static const int order[2] = {SB_INNER, SB_OUTER};
   SbLabels *labels = g_new(SbLabels, 1);
   bool band_named = false;
@@ -709,16 +668,16 @@ static void draw_panel(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
         .canvas = c, .labels = labels, .data = data, .index = order[k], .band_named = &band_named};
     s.color = sb_theme_seal(theme, s.index);
     s.seal = frame ? &frame->seal[s.index] : NULL;
-    layout(&s, &xt, &yt, in, flags, film);
-    sb_labels_init(labels,
-                   (SbRect){s.plot.x - 2, s.plot.y - 12, s.plot.width + 4, s.plot.height + 12});
+    layout(&s, in, flags, film);
+    sb_labels_init(labels, (SbRect){s.at.plot.x - 2, s.at.plot.y - 12, s.at.plot.width + 4,
+                                    s.at.plot.height + 12});
     SbTextStyle name = {SB_TYPE_LABEL, 600, s.color, 1};
-    sb_canvas_text(c, sb_chart_seal_name(data->run.model, s.index), &name, s.plot.x,
+    sb_canvas_text(c, sb_chart_seal_name(data->run.model, s.index), &name, s.at.plot.x,
                    in.y + (compact ? 34 : 40), SB_LEFT);
     if (film) {
       continuum_band(&s);
     }
-    small_axes(&s, &xt, &yt, film, k == 0);
+    sb_axes_draw(c, &s.at, labels);
     pinned_curves(&s, film);
     // What is predicted is dashed, over the paler curve of the former run.
     const SbSealFrame *coming = predicted_seal(data, s.index, film);

@@ -4,6 +4,7 @@
 #include "app/base/translation.h"
 #include "app/chart/propellants_private.h"
 #include "app/draw/axis.h"
+#include "app/draw/frame.h"
 #include "app/draw/label.h"
 #include "engine/fluid/fluid.h"
 
@@ -163,8 +164,7 @@ typedef struct {
   const SbStudy *study;
   const SbPropellantsLook *look;
   int panel;
-  SbRect plot;
-  SbScale x, y;
+  SbAxes at;
 } Chart;
 
 static void scales(Chart *chart) {
@@ -191,55 +191,37 @@ static void scales(Chart *chart) {
   lo = lo < 0 ? lo - 0.04 * (hi - lo) : lo;
   hi += 0.04 * (hi - lo);
   sb_axis_repair(&from, &to);
-  const SbRect r = chart->plot;
-  chart->x = (SbScale){from - ZERO, to - ZERO, r.x, r.x + r.width, false};
-  chart->y = (SbScale){lo, hi, r.y + r.height, r.y, false};
+  const SbRect r = chart->at.plot;
+  sb_axes_linear(&chart->at, r, from - ZERO, to - ZERO, lo, hi);
+  sb_axes_ticks(&chart->at, (int)CLAMP(r.width / 55, 3, 8), (int)CLAMP(r.height / 60, 3, 8));
 }
 
 static double height_of(const Chart *chart, double value) {
-  return sb_axis_at(&chart->y, value);
+  return sb_axis_at(&chart->at.y, value);
 }
 
 static double place_of(const Chart *chart, double T) {
-  return sb_axis_at(&chart->x, T - ZERO);
+  return sb_axis_at(&chart->at.x, T - ZERO);
 }
 
 // The ground under the least return: where the stem stays, and where it comes back weakly.
 static void draw_regions(const Chart *chart) {
   SbCanvas *c = chart->c;
-  const SbRect r = chart->plot;
+  const SbRect r = chart->at.plot;
   const double bottom = r.y + r.height, zero = CLAMP(height_of(chart, 0), r.y, bottom);
   const double weak = CLAMP(height_of(chart, sb_propellants_weak_below(chart->study)), r.y, zero);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_WARN_GROUND), 1);
-  cairo_rectangle(c->cr, r.x, weak, r.width, zero - weak);
-  cairo_fill(c->cr);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR_GROUND), 1);
-  cairo_rectangle(c->cr, r.x, zero, r.width, bottom - zero);
-  cairo_fill(c->cr);
-  cairo_save(c->cr);
-  cairo_rectangle(c->cr, r.x, zero, r.width, bottom - zero);
-  cairo_clip(c->cr);
-  sb_canvas_pen(c, 0.7, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 0.35);
-  for (double x = r.x - (bottom - zero); x < r.x + r.width; x += 14) {
-    cairo_move_to(c->cr, x, bottom);
-    cairo_line_to(c->cr, x + bottom - zero, zero);
-  }
-  cairo_stroke(c->cr);
-  cairo_restore(c->cr);
+  sb_canvas_fill(c, (SbRect){r.x, weak, r.width, zero - weak}, SB_ROLE_WARN_GROUND, 1);
+  sb_canvas_fill(c, (SbRect){r.x, zero, r.width, bottom - zero}, SB_ROLE_ERROR_GROUND, 1);
+  sb_canvas_hatch(c, (SbRect){r.x, zero, r.width, bottom - zero}, 14, false, SB_ROLE_ERROR, 0.35);
 }
 
 // A level across the plot, named at the left over it, or below it where its band is high enough.
 static void draw_level(const Chart *chart, double value, const char *text, bool below) {
   SbCanvas *c = chart->c;
-  const SbRect r = chart->plot;
+  const SbRect r = chart->at.plot;
   const double y = height_of(chart, value);
   const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_WARN);
-  sb_canvas_pen(c, 1.2, &sb_dash_reference);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_WARN), 1);
-  cairo_move_to(c->cr, r.x, y);
-  cairo_line_to(c->cr, r.x + r.width, y);
-  cairo_stroke(c->cr);
+  sb_canvas_line(c, (SbStroke){SB_ROLE_WARN, 1.2, &sb_dash_reference}, r.x, y, r.x + r.width, y);
   sb_canvas_text(c, text, &style, r.x + 10, below ? y + 17 : y - 6, SB_LEFT);
 }
 
@@ -248,12 +230,13 @@ static void draw_curve(const Chart *chart, int k) {
   const SbStudySeries *series = sb_propellants_series(chart->study, chart->panel, k);
   SbPoint point[SB_STUDY_POINTS];
   for (size_t i = 0; i < series->count; i++) {
-    point[i] = (SbPoint){place_of(chart, series->x[i]), height_of(chart, series->y[i])};
+    point[i] = sb_axes_at(&chart->at, series->x[i] - ZERO, series->y[i]);
   }
   for (int pass = looks[k].outlined ? 0 : 1; pass < 2; pass++) {
-    sb_canvas_pen(c, pass == 0 ? looks[k].width + 1.6 : looks[k].width, looks[k].dash);
-    sb_canvas_color(c, sb_canvas_role(c, pass == 0 ? SB_ROLE_INK : looks[k].role), 1);
-    sb_canvas_polyline(c, point, series->count);
+    sb_canvas_curve(c,
+                    (SbStroke){pass == 0 ? SB_ROLE_INK : looks[k].role,
+                               pass == 0 ? looks[k].width + 1.6 : looks[k].width, looks[k].dash},
+                    point, series->count);
   }
 }
 
@@ -278,46 +261,38 @@ static int sorted(int out[SB_PROPELLANTS], double value[SB_PROPELLANTS], const C
 // Names at the curves' right ends, moved apart.
 static void name_curves(const Chart *chart) {
   SbCanvas *c = chart->c;
-  const double line = 16;
   int order[SB_PROPELLANTS];
   double value[SB_PROPELLANTS], y[SB_PROPELLANTS];
-  const int count = sorted(order, value, chart, chart->x.hi + ZERO);
+  const int count = sorted(order, value, chart, chart->at.x.hi + ZERO);
   for (int i = 0; i < count; i++) {
     y[i] = height_of(chart, value[order[i]]);
   }
-  for (int round = 0; round < 40; round++) {
-    for (int i = 1; i < count; i++) {
-      const double lack = line - (y[i] - y[i - 1]);
-      y[i] += lack > 0 ? lack / 2 : 0;
-      y[i - 1] -= lack > 0 ? lack / 2 : 0;
-    }
-  }
+  sb_labels_spread(y, count, 16, -INFINITY, INFINITY);
   const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   for (int i = 0; i < count; i++) {
     sb_canvas_text_fit(c, sb_propellants_name(order[i]), &style,
-                       chart->plot.x + chart->plot.width + 8, y[i] + 4.3, 100);
+                       chart->at.plot.x + chart->at.plot.width + 8, y[i] + 4.3, 100);
   }
 }
 
 void sb_propellants_sample(SbCanvas *c, int k, double x, double y, double width) {
   for (int pass = looks[k].outlined ? 0 : 1; pass < 2; pass++) {
-    sb_canvas_pen(c, pass == 0 ? looks[k].width + 1.6 : looks[k].width, looks[k].dash);
-    sb_canvas_color(c, sb_canvas_role(c, pass == 0 ? SB_ROLE_INK : looks[k].role), 1);
-    cairo_move_to(c->cr, x, y);
-    cairo_line_to(c->cr, x + width, y);
-    cairo_stroke(c->cr);
+    sb_canvas_line(c,
+                   (SbStroke){pass == 0 ? SB_ROLE_INK : looks[k].role,
+                              pass == 0 ? looks[k].width + 1.6 : looks[k].width, looks[k].dash},
+                   x, y, x + width, y);
   }
 }
 
 // The cursor with a dot on each curve, and what they are there, in a box on its side with room.
 static void draw_cursor(const Chart *chart) {
   SbCanvas *c = chart->c;
-  const SbRect r = chart->plot;
+  const SbRect r = chart->at.plot;
   const double T = chart->look->temperature;
   int order[SB_PROPELLANTS];
   double value[SB_PROPELLANTS];
   const int count = sorted(order, value, chart, T);
-  if (!(T - ZERO >= chart->x.lo - 1e-6 && T - ZERO <= chart->x.hi + 1e-6)) {
+  if (!(T - ZERO >= chart->at.x.lo - 1e-6 && T - ZERO <= chart->at.x.hi + 1e-6)) {
     return;
   }
   char text[SB_FORMAT_MAX];
@@ -395,29 +370,23 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
   char number[SB_FORMAT_MAX];
   const SbRect card = layout->chart[panel];
   sb_canvas_panel(c, card);
-  Chart chart = {.c = c, .study = study, .look = look, .panel = panel, .plot = layout->plot[panel]};
+  Chart chart = {
+      .c = c, .study = study, .look = look, .panel = panel, .at.plot = layout->plot[panel]};
   scales(&chart);
-  const SbRect r = chart.plot;
-  const SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
-  const SbTextStyle note = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  const SbRect r = chart.at.plot;
   const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   g_autofree char *land = g_strdup_printf(
       _("gauge pressure on the stem's %s mm"),
       sb_format_fixed(number, 1e3 * sb_model_value(model, SB_P_STEM_PRESSURE_DIAMETER), 3));
   const char *const notes[] = {land, _("first slip, in-stroke"),
                                _("pressure force minus friction")};
-  const double used =
-      sb_canvas_text(c, _(titles[panel]), &title, card.x + 20, card.y + 27, SB_LEFT);
-  sb_canvas_text_fit(c, notes[panel], &note, card.x + 30 + used, card.y + 27,
-                     card.width - 50 - used);
+  sb_frame_title(c, (SbRect){card.x + 20, card.y + 13, card.width - 40, 0}, SB_TYPE_PANEL_WINDOW,
+                 _(titles[panel]), notes[panel]);
   sb_canvas_text(c, "N", &label, r.x - 8, r.y - 8, SB_RIGHT);
   if (panel == RETURN) {
     draw_regions(&chart);
   }
-  SbTicks x, y;
-  sb_axis_ticks(&x, chart.x.lo, chart.x.hi, (int)CLAMP(r.width / 55, 3, 8));
-  sb_axis_ticks(&y, chart.y.lo, chart.y.hi, (int)CLAMP(r.height / 60, 3, 8));
-  sb_axis_draw(c, r, &chart.x, &x, &chart.y, &y);
+  sb_axes_draw(c, &chart.at, NULL);
   sb_canvas_text(c, "°C", &label, r.x + r.width + 12, r.y + r.height + 18, SB_LEFT);
   const double limit = study->panel[panel].limit_high;
   if (isfinite(limit)) {
@@ -430,11 +399,7 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
     g_autofree char *text =
         g_strdup_printf(_("returns under %s"), sb_format_given(number, SB_QUANTITY_FORCE, weak));
     draw_level(&chart, weak, text, zero - height_of(&chart, weak) > 22);
-    sb_canvas_pen(c, 1.6, NULL);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
-    cairo_move_to(c->cr, r.x, zero);
-    cairo_line_to(c->cr, r.x + r.width, zero);
-    cairo_stroke(c->cr);
+    sb_canvas_line(c, (SbStroke){SB_ROLE_ERROR, 1.6, NULL}, r.x, zero, r.x + r.width, zero);
     if (r.y + r.height - zero > 40) {
       const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_ERROR);
       sb_canvas_text_plate(c, _("stem does not return"), &style, r.x + r.width - 12,

@@ -94,10 +94,9 @@ static void draw_strip(SbCanvas *c, SbRect r, const SbStudy *study, int k, doubl
                             study, sb_propellants_value(series, lo + (hi - lo) * (i + 1.5) / steps))
                       : 0;
     if (i + 1 == steps || then != now) {
-      sb_canvas_color(c, sb_canvas_role(c, sb_propellants_role(now)), strength[now]);
-      cairo_rectangle(c->cr, r.x + r.width * from / steps, r.y, r.width * (i + 1 - from) / steps,
-                      8);
-      cairo_fill(c->cr);
+      sb_canvas_fill(
+          c, (SbRect){r.x + r.width * from / steps, r.y, r.width * (i + 1 - from) / steps, 8},
+          sb_propellants_role(now), strength[now]);
       from = i + 1;
     }
   }
@@ -106,9 +105,7 @@ static void draw_strip(SbCanvas *c, SbRect r, const SbStudy *study, int k, doubl
   const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_NOTE, 600, SB_ROLE_INK);
   const double x = r.x + r.width * (T - lo) / (hi - lo);
   if (x >= r.x - 1 && x <= r.x + r.width + 1) {
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-    cairo_rectangle(c->cr, x - 1, r.y - 4, 2, 16);
-    cairo_fill(c->cr);
+    sb_canvas_fill(c, (SbRect){x - 1, r.y - 4, 2, 16}, SB_ROLE_INK, 1);
   }
   const double base = r.y + 24;
   const double left =

@@ -6,6 +6,7 @@
 #include "app/base/format.h"
 #include "app/chart/signal.h"
 #include "app/draw/axis.h"
+#include "app/draw/frame.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -151,22 +152,12 @@ static void draw_scale(SbCanvas *c, SbRect in, const SbChartRun *run) {
 // Panels
 
 static SbRect begin(SbCanvas *c, cairo_t *cr, SbRect rect, const SbTheme *theme, unsigned flags,
-                    const char *title_text, const char *note) {
+                    const char *title, const char *note) {
+  const bool compact = flags & SB_CHART_COMPACT;
   sb_canvas_init(c, cr, theme);
-  bool compact = flags & SB_CHART_COMPACT;
-  if (flags & SB_CHART_PANEL) {
-    sb_canvas_panel(c, rect);
-  }
-  double pad = flags & SB_CHART_PANEL ? SB_GRID_PADDING : 0;
-  SbTextStyle title =
-      sb_canvas_style(c, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, 700, SB_ROLE_INK);
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  SbRect in = {rect.x + pad, rect.y + pad, rect.width - 2 * pad, rect.height - 2 * pad};
-  double width = sb_canvas_text(c, title_text, &title, in.x, in.y + 14, SB_LEFT);
-  if (note) {
-    sb_canvas_text_fit(c, note, &label, in.x + width + 12, in.y + 14, in.width - width - 12);
-  }
-  double head = compact ? 26 : 34;
+  const SbRect in = sb_frame_begin(c, rect, flags & SB_CHART_PANEL);
+  sb_frame_title(c, in, compact ? SB_TYPE_PANEL_WINDOW : SB_TYPE_PANEL, title, note);
+  const double head = compact ? 26 : 34;
   return (SbRect){in.x, in.y + head, in.width, fmax(in.height - head, 10)};
 }
 
@@ -230,26 +221,12 @@ void sb_rig_page_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCh
 // ---------------------------------------------------------------------------------------------------
 // Plate
 
-static void hatched(SbCanvas *c, SbRect r, SbRole ground, SbRole hatch, double lean) {
-  cairo_t *cr = c->cr;
-  sb_canvas_color(c, sb_canvas_role(c, ground), 1);
-  cairo_rectangle(cr, r.x, r.y, r.width, r.height);
-  cairo_fill(cr);
-  cairo_save(cr);
-  cairo_rectangle(cr, r.x, r.y, r.width, r.height);
-  cairo_clip(cr);
-  sb_canvas_pen(c, 0.7, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, hatch), 1);
-  for (double x = -r.height; x < r.width + r.height; x += 15.6) {
-    cairo_move_to(cr, r.x + x, lean > 0 ? r.y + r.height : r.y);
-    cairo_line_to(cr, r.x + x + r.height, lean > 0 ? r.y : r.y + r.height);
-  }
-  cairo_stroke(cr);
-  cairo_restore(cr);
-  sb_canvas_pen(c, SB_LINE_OUTLINE, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_OUTLINE), 1);
-  cairo_rectangle(cr, r.x, r.y, r.width, r.height);
-  cairo_stroke(cr);
+static void hatched(SbCanvas *c, SbRect r, SbRole ground, SbRole hatch, bool left) {
+  sb_canvas_fill(c, r, ground, 1);
+  sb_canvas_hatch(c, r, 15.6, left, hatch, 1);
+  sb_canvas_stroke(c, (SbStroke){SB_ROLE_OUTLINE, SB_LINE_OUTLINE, NULL});
+  cairo_rectangle(c->cr, r.x, r.y, r.width, r.height);
+  cairo_stroke(c->cr);
 }
 
 void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
@@ -271,7 +248,7 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   double floor_y = top + 0.80 * h, ring = 0.055 * h, room = 0.16 * w;
   double plate_w = 0.40 * w, plate_x = in.x + 0.08 * w + moved * room;
   double plate_y = floor_y - 2 * ring - 0.10 * h;
-  hatched(c, (SbRect){in.x, floor_y, w, 0.12 * h}, SB_ROLE_HOUSING, SB_ROLE_HOUSING_HATCH, 1);
+  hatched(c, (SbRect){in.x, floor_y, w, 0.12 * h}, SB_ROLE_HOUSING, SB_ROLE_HOUSING_HATCH, false);
   const double seat[] = {0.16, 0.84};
   for (int i = 0; i < 2; i++) {
     for (int side = -1; side <= 1; side += 2) {
@@ -290,10 +267,10 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     }
   }
   hatched(c, (SbRect){plate_x, plate_y, plate_w, 0.10 * h + 0.12 * ring}, SB_ROLE_STEM,
-          SB_ROLE_STEM_HATCH, -1);
+          SB_ROLE_STEM_HATCH, true);
   double block_h = 0.26 * h;
   hatched(c, (SbRect){plate_x + 0.2 * plate_w, plate_y - block_h, 0.6 * plate_w, block_h},
-          SB_ROLE_STEM, SB_ROLE_STEM_HATCH, -1);
+          SB_ROLE_STEM, SB_ROLE_STEM_HATCH, true);
 
   // Thread with its load cell to the motor's drum, which has turned as far as it has wound up.
   double thread_y = plate_y + 0.05 * h, drum_x = in.x + 0.90 * w, drum_r = 0.10 * h;

@@ -74,11 +74,8 @@ static void fill(Bins *bins, const SbHistogram *of) {
 static void draw_limit(SbCanvas *c, SbRect plot, const SbScale *x, double at) {
   if (isfinite(at)) {
     const double px = sb_axis_at(x, at);
-    sb_canvas_pen(c, 1.6, &sb_dash_reference);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
-    cairo_move_to(c->cr, px, plot.y);
-    cairo_line_to(c->cr, px, plot.y + plot.height);
-    cairo_stroke(c->cr);
+    sb_canvas_line(c, (SbStroke){SB_ROLE_ERROR, 1.6, &sb_dash_reference}, px, plot.y, px,
+                   plot.y + plot.height);
   }
 }
 
@@ -89,9 +86,8 @@ static void draw_bar(SbCanvas *c, SbRect plot, const SbScale *x, double from, do
   for (int part = 0; part < 3; part++) {
     const double a = sb_axis_at(x, edge[part]), b = sb_axis_at(x, edge[part + 1]);
     if (b > a) {
-      sb_canvas_color(c, sb_canvas_role(c, part == 1 ? SB_ROLE_OUTER : SB_ROLE_ERROR), 0.85);
-      cairo_rectangle(c->cr, a + 0.4, plot.y + plot.height - height, b - a - 0.8, height);
-      cairo_fill(c->cr);
+      sb_canvas_fill(c, (SbRect){a + 0.4, plot.y + plot.height - height, b - a - 0.8, height},
+                     part == 1 ? SB_ROLE_OUTER : SB_ROLE_ERROR, 0.85);
     }
   }
 }
@@ -118,22 +114,18 @@ void sb_histogram_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbH
   const SbRect plot = {rect.x + 46, rect.y + 60, rect.width - 64, rect.height - 60 - 42};
   const double low = isfinite(of->low) ? shown_of(of, of->low) : -INFINITY;
   const double high = isfinite(of->high) ? shown_of(of, of->high) : INFINITY;
-  SbScale x = {bins.lo, bins.hi, plot.x, plot.x + plot.width, false};
-  x.lo = isfinite(low) ? fmin(x.lo, low - bins.width) : x.lo;
-  x.hi = isfinite(high) ? fmax(x.hi, high + bins.width) : x.hi;
-  const SbScale y = {0, 108 * bins.most, plot.y + plot.height, plot.y, false};
-  SbTicks x_ticks, y_ticks;
-  sb_axis_ticks(&x_ticks, x.lo, x.hi, 5);
-  sb_axis_ticks(&y_ticks, y.lo, y.hi, 3);
-  sb_axis_draw(c, plot, &x, &x_ticks, &y, &y_ticks);
+  SbAxes at = {.x_name = of->unit};
+  sb_axes_linear(&at, plot, isfinite(low) ? fmin(bins.lo, low - bins.width) : bins.lo,
+                 isfinite(high) ? fmax(bins.hi, high + bins.width) : bins.hi, 0, 108 * bins.most);
+  sb_axes_ticks(&at, 5, 3);
+  sb_axes_draw(c, &at, NULL);
   for (int k = 0; k < bins.bins; k++) {
-    draw_bar(c, plot, &x, bins.lo + k * bins.width, bins.lo + (k + 1) * bins.width,
-             plot.y + plot.height - sb_axis_at(&y, 100 * bins.share[k]), low, high);
+    draw_bar(c, plot, &at.x, bins.lo + k * bins.width, bins.lo + (k + 1) * bins.width,
+             plot.y + plot.height - sb_axis_at(&at.y, 100 * bins.share[k]), low, high);
   }
-  draw_limit(c, plot, &x, low);
-  draw_limit(c, plot, &x, high);
+  draw_limit(c, plot, &at.x, low);
+  draw_limit(c, plot, &at.x, high);
   const SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  sb_canvas_text(c, of->unit, &style, plot.x + plot.width, plot.y + plot.height + 34, SB_RIGHT);
   sb_canvas_text(c, "%", &style, plot.x - 8, plot.y - 6, SB_RIGHT);
   sb_canvas_finish(c);
 }
@@ -174,16 +166,12 @@ void sb_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbTor
     const double end = sb_axis_at(&x, value);
     char digits[SB_FORMAT_MAX];
     sb_canvas_text_fit_ends(c, of->bar[order[k]].name, &name, rect.x + 14, y + 10, names - 8);
-    sb_canvas_color(c, sb_canvas_role(c, value < 0 ? SB_ROLE_INNER : SB_ROLE_OUTER), 0.85);
-    cairo_rectangle(c->cr, fmin(zero, end), y, fabs(end - zero), 13);
-    cairo_fill(c->cr);
+    sb_canvas_fill(c, (SbRect){fmin(zero, end), y, fabs(end - zero), 13},
+                   value < 0 ? SB_ROLE_INNER : SB_ROLE_OUTER, 0.85);
     if (isfinite(of->bar[order[k]].low) && isfinite(of->bar[order[k]].high)) {
       const double a = sb_axis_at(&x, fmax(of->bar[order[k]].low, x.lo));
-      sb_canvas_pen(c, 1.2, NULL);
-      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-      cairo_move_to(c->cr, a, y + 6.5);
-      cairo_line_to(c->cr, sb_axis_at(&x, of->bar[order[k]].high), y + 6.5);
-      cairo_stroke(c->cr);
+      sb_canvas_line(c, (SbStroke){SB_ROLE_INK, 1.2, NULL}, a, y + 6.5,
+                     sb_axis_at(&x, of->bar[order[k]].high), y + 6.5);
     }
     sb_format_digits(digits, value, 2);
     g_autofree char *text =

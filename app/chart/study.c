@@ -73,12 +73,6 @@ void sb_study_layout(SbStudyLayout *out, SbRect rect, const SbStudy *study) {
 // ---------------------------------------------------------------------------------------------------
 // Styles
 
-typedef struct {
-  SbRole role;
-  double width;
-  const SbDash *dash;
-} Look;
-
 // Index of a series among those of its style, counted over all panels by name.
 static int style_index(const SbStudy *study, const SbStudySeries *series) {
   const char *seen[NAMES];
@@ -104,26 +98,26 @@ static int style_index(const SbStudy *study, const SbStudySeries *series) {
   return 0;
 }
 
-static Look series_look(const SbStudy *study, const SbStudySeries *series) {
+static SbStroke series_look(const SbStudy *study, const SbStudySeries *series) {
   static const SbRole solved[] = {SB_ROLE_INK, SB_ROLE_VIOLET, SB_ROLE_TEAL, SB_ROLE_FLUID};
   static const SbDash *const dashes[] = {&sb_dash_reference, &sb_dash_pinned, &sb_dash_dimension,
                                          &sb_dash_centre, &sb_dash_dose};
   // A seal has its own colour everywhere.
   if (series->seal > 0) {
     const bool outer = series->seal == 1 + SB_OUTER;
-    return (Look){outer ? SB_ROLE_OUTER : SB_ROLE_INNER, SB_LINE_SEAL, NULL};
+    return (SbStroke){outer ? SB_ROLE_OUTER : SB_ROLE_INNER, SB_LINE_SEAL, NULL};
   }
   int index = style_index(study, series);
   if (series->style == SB_STUDY_REFERENCE) {
-    return (Look){index % 2 == 0 ? SB_ROLE_SECOND : SB_ROLE_PINNED, 1.6,
-                  dashes[index % (int)G_N_ELEMENTS(dashes)]};
+    return (SbStroke){index % 2 == 0 ? SB_ROLE_SECOND : SB_ROLE_PINNED, 1.6,
+                      dashes[index % (int)G_N_ELEMENTS(dashes)]};
   }
   if (series->style == SB_STUDY_DOTS) {
-    return (Look){solved[index % (int)G_N_ELEMENTS(solved)], 1.6, NULL};
+    return (SbStroke){solved[index % (int)G_N_ELEMENTS(solved)], 1.6, NULL};
   }
-  return (Look){solved[index % (int)G_N_ELEMENTS(solved)],
-                index == 0 ? SB_LINE_ACTIVE : SB_LINE_SEAL,
-                index < (int)G_N_ELEMENTS(solved) ? NULL : &sb_dash_pinned};
+  return (SbStroke){solved[index % (int)G_N_ELEMENTS(solved)],
+                    index == 0 ? SB_LINE_ACTIVE : SB_LINE_SEAL,
+                    index < (int)G_N_ELEMENTS(solved) ? NULL : &sb_dash_pinned};
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -136,8 +130,7 @@ typedef struct {
   const SbStudy *study;
   const SbStudyPanel *panel;
   SbLabels *labels;
-  SbRect card, plot;
-  SbScale x, y;
+  SbAxes at;
   double x_unit, x_zero, y_unit; // shown per SI, what 0 in SI is shown as
   bool empty;                    // no value at all: no range to tell either
 } Plot;
@@ -219,118 +212,52 @@ static void set_scales(Plot *plot) {
   if (!(x.hi > x.lo)) {
     x = (Span){0, 1};
   }
-  SbRect r = plot->plot;
-  plot->x = (SbScale){x.lo, x.hi, r.x, r.x + r.width, plot->study->x.logarithmic};
-  plot->y = (SbScale){y.lo, y.hi, r.y + r.height, r.y, log_y};
-}
-
-// Evenly spaced marks too small or too large for plain digits get a power of ten, the same on all
-// of them; "10" to a small power as digits, else as 10 with an exponent.
-static void tick_text(char *out, const SbTicks *ticks, double value, bool logarithmic) {
-  if (!logarithmic || ticks->step > 0) {
-    double most = fabs(ticks->value[ticks->count - 1]);
-    most = fmax(most, fabs(ticks->value[0]));
-    int exponent = most > 0 ? (int)floor(log10(most) + 1e-9) : 0;
-    if (value == 0 || (exponent > -4 && exponent < 6)) {
-      sb_format_fixed(out, value, ticks->decimals);
-      return;
-    }
-    char number[SB_FORMAT_MAX], power[SB_FORMAT_MAX];
-    sb_format_fixed(number, value / pow(10, exponent), MAX(ticks->decimals + exponent, 0));
-    g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xb7%s", number, sb_format_power(power, exponent));
-  } else if (value >= 0.999e-3 && value < 1.001e4) {
-    sb_format_digits(out, value, 1);
-  } else {
-    int exponent = (int)floor(log10(value) + 1e-9);
-    double mantissa = value / pow(10, exponent);
-    char power[SB_FORMAT_MAX];
-    sb_format_power(power, exponent);
-    if (mantissa < 1.5) {
-      g_strlcpy(out, power, SB_FORMAT_MAX);
-    } else {
-      g_snprintf(out, SB_FORMAT_MAX, "%.0f\xc2\xb7%s", mantissa, power);
-    }
-  }
-}
-
-static void make_ticks(SbTicks *out, const SbScale *scale, double room) {
-  if (scale->logarithmic) {
-    sb_axis_log_ticks(out, scale->lo, scale->hi);
-  } else {
-    sb_axis_ticks(out, scale->lo, scale->hi, (int)CLAMP(room / 60, 3, 7));
-  }
+  const SbRect r = plot->at.plot;
+  sb_axes_linear(&plot->at, r, x.lo, x.hi, y.lo, y.hi);
+  plot->at.x.logarithmic = plot->study->x.logarithmic;
+  plot->at.y.logarithmic = log_y;
+  sb_axes_ticks(&plot->at, (int)CLAMP(r.width / 60, 3, 7),
+                plot->empty ? 0 : (int)CLAMP(r.height * 1.4 / 60, 3, 7));
 }
 
 // Makes room for the numbers of the upright axis, whose range does not depend on the plot's width.
 static void fit_numbers(Plot *plot) {
   SbTextStyle label = sb_canvas_style(plot->canvas, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   char text[SB_FORMAT_MAX];
-  SbTicks ticks;
-  double widest = 0, left = plot->plot.x;
-  make_ticks(&ticks, &plot->y, plot->plot.height * 1.4);
-  for (int i = 0; i < ticks.count && !plot->empty; i++) {
-    tick_text(text, &ticks, ticks.value[i], plot->y.logarithmic);
+  const double left = plot->at.plot.x;
+  double widest = 0;
+  for (int i = 0; i < plot->at.y_ticks.count; i++) {
+    sb_axis_text(text, &plot->at.y_ticks, plot->at.y_ticks.value[i]);
     widest = fmax(widest, sb_canvas_text_width(plot->canvas, text, &label));
   }
-  plot->plot.x = fmax(left, plot->card.x + 4 + ceil(widest) + 8);
-  plot->plot.width -= plot->plot.x - left;
+  plot->at.plot.x = fmax(left, plot->at.card.x + 4 + ceil(widest) + 8);
+  plot->at.plot.width -= plot->at.plot.x - left;
   set_scales(plot);
 }
 
 static void draw_axes(Plot *plot) {
-  SbCanvas *c = plot->canvas;
-  SbRect r = plot->plot;
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  double bottom = r.y + r.height;
-  char text[SB_FORMAT_MAX];
-  SbTicks ticks;
-  make_ticks(&ticks, &plot->y, r.height * 1.4);
-  for (int i = 0; i < ticks.count && !plot->empty; i++) {
-    double y = sb_axis_at(&plot->y, ticks.value[i]);
-    sb_canvas_hairline(c, r.x, y, r.x + r.width, y, sb_canvas_role(c, SB_ROLE_GRID));
-    tick_text(text, &ticks, ticks.value[i], plot->y.logarithmic);
-    sb_canvas_text(c, text, &label, r.x - 8, y + 4.3, SB_RIGHT);
-  }
-  sb_canvas_hairline(c, r.x, bottom, r.x + r.width, bottom, sb_canvas_role(c, SB_ROLE_AXIS));
-  make_ticks(&ticks, &plot->x, r.width);
-  // Of numbers that would touch only some are written.
-  double free_from = -INFINITY;
-  for (int i = 0; i < ticks.count; i++) {
-    double x = sb_axis_at(&plot->x, ticks.value[i]);
-    sb_canvas_hairline(c, x, bottom, x, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
-    tick_text(text, &ticks, ticks.value[i], plot->x.logarithmic);
-    double half = sb_canvas_text_width(c, text, &label) / 2;
-    if (x - half >= free_from) {
-      sb_canvas_text(c, text, &label, x, bottom + 18, SB_MIDDLE);
-      free_from = x + half + 6;
-    }
-  }
   const SbStudyAxis *axis = &plot->study->x;
   g_autofree char *title = g_strdup_printf("%s%s%s", sb_translation(axis->quantity),
                                            axis->unit[0] ? " / " : "", sb_translation(axis->unit));
-  // Under the plot's right end; a title longer than that begins at the card's left.
-  double left = plot->card.x + 12, width = sb_canvas_text_width(c, title, &label);
-  sb_canvas_text_fit(c, title, &label, fmax(r.x + r.width - width, left), bottom + 35,
-                     plot->card.x + plot->card.width - 12 - left);
+  plot->at.x_name = title;
+  sb_axes_draw(plot->canvas, &plot->at, NULL);
+  plot->at.x_name = NULL;
 }
 
 static void draw_marks(Plot *plot) {
   SbCanvas *c = plot->canvas;
-  SbRect r = plot->plot;
+  SbRect r = plot->at.plot;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   for (size_t i = 0; i < plot->study->mark_count; i++) {
     const SbStudyMark *mark = &plot->study->mark[i];
     double value = x_shown(plot, mark->x);
-    double slack = 1e-9 * fabs(plot->x.hi);
-    if (!(value >= plot->x.lo - slack && value <= plot->x.hi + slack)) {
+    double slack = 1e-9 * fabs(plot->at.x.hi);
+    if (!(value >= plot->at.x.lo - slack && value <= plot->at.x.hi + slack)) {
       continue;
     }
-    double x = floor(sb_axis_at(&plot->x, value)) + 0.5;
-    sb_canvas_pen(c, 1, &sb_dash_dimension);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_AXIS), 1);
-    cairo_move_to(c->cr, x, r.y - 4);
-    cairo_line_to(c->cr, x, r.y + r.height);
-    cairo_stroke(c->cr);
+    double x = floor(sb_axis_at(&plot->at.x, value)) + 0.5;
+    sb_canvas_line(c, (SbStroke){SB_ROLE_AXIS, 1, &sb_dash_dimension}, x, r.y - 4, x,
+                   r.y + r.height);
     SbPlace at;
     const SbPlace places[] = {{x + 5, r.y + 5, SB_LEFT},
                               {x - 5, r.y + 5, SB_RIGHT},
@@ -348,25 +275,20 @@ static SbPoint *series_points(const Plot *plot, const SbStudySeries *series) {
   SbPoint *out = g_new(SbPoint, series->count + 1);
   for (size_t i = 0; i < series->count; i++) {
     bool good = usable(plot, series->x[i], series->y[i]);
-    out[i].x = good ? sb_axis_at(&plot->x, x_shown(plot, series->x[i])) : NAN;
-    out[i].y = good ? sb_axis_at(&plot->y, series->y[i] * plot->y_unit) : NAN;
+    out[i] = good ? sb_axes_at(&plot->at, x_shown(plot, series->x[i]), series->y[i] * plot->y_unit)
+                  : (SbPoint){NAN, NAN};
   }
   return out;
 }
 
 static bool inside(const Plot *plot, SbPoint p) {
-  return isfinite(p.x) && isfinite(p.y) && p.y >= plot->plot.y - 3 &&
-         p.y <= plot->plot.y + plot->plot.height + 3;
-}
-
-static void set_pen(SbCanvas *c, const Look *look) {
-  sb_canvas_pen(c, look->width, look->dash);
-  sb_canvas_color(c, sb_canvas_role(c, look->role), 1);
+  return isfinite(p.x) && isfinite(p.y) && p.y >= plot->at.plot.y - 3 &&
+         p.y <= plot->at.plot.y + plot->at.plot.height + 3;
 }
 
 static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *points) {
   SbCanvas *c = plot->canvas;
-  Look look = series_look(plot->study, series);
+  SbStroke look = series_look(plot->study, series);
   if (series->style == SB_STUDY_DOTS) {
     for (size_t i = 0; i < series->count; i++) {
       if (inside(plot, points[i])) {
@@ -375,11 +297,9 @@ static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *
     }
     return;
   }
-  SbRect r = plot->plot;
-  cairo_save(c->cr);
-  cairo_rectangle(c->cr, r.x - 2, r.y - 2, r.width + 4, r.height + 4);
-  cairo_clip(c->cr);
-  set_pen(c, &look);
+  SbRect r = plot->at.plot;
+  sb_canvas_clip(c, (SbRect){r.x - 2, r.y - 2, r.width + 4, r.height + 4});
+  sb_canvas_stroke(c, look);
   // A stroke of its own for each part between gaps.
   size_t from = 0;
   for (size_t i = 0; i <= series->count; i++) {
@@ -389,7 +309,7 @@ static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *
         sb_labels_avoid(plot->labels, points + from, i - from, 1);
       } else if (i > from) {
         sb_canvas_dot(c, points[from].x, points[from].y, 2, sb_canvas_role(c, look.role));
-        set_pen(c, &look);
+        sb_canvas_stroke(c, look);
       }
       from = i + 1;
     }
@@ -403,7 +323,6 @@ static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *
 typedef struct {
   const SbStudySeries *series;
   SbPoint end;
-  double y; // of the name
 } Name;
 
 static int by_height(const void *a, const void *b) {
@@ -411,41 +330,23 @@ static int by_height(const void *a, const void *b) {
   return d < 0 ? -1 : d > 0;
 }
 
-// Moves names apart: each run of touching names is centred on what it names.
-static void spread(Name *name, int count, double top, double bottom, double line) {
-  qsort(name, (size_t)count, sizeof *name, by_height);
-  for (int i = 0; i < count; i++) {
-    name[i].y = name[i].end.y;
-  }
-  for (int round = 0; round < 60; round++) {
-    for (int i = 1; i < count; i++) {
-      double lack = line - (name[i].y - name[i - 1].y);
-      if (lack > 0) {
-        name[i].y += lack / 2;
-        name[i - 1].y -= lack / 2;
-      }
-    }
-    for (int i = 0; i < count; i++) {
-      name[i].y = CLAMP(name[i].y, top + line * i, fmax(top, bottom - line * (count - 1 - i)));
-    }
-  }
-}
-
 static void draw_gutter(Plot *plot, Name *name, int count, double width) {
   SbCanvas *c = plot->canvas;
-  SbRect r = plot->plot;
+  SbRect r = plot->at.plot;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  spread(name, count, r.y - 4, r.y + r.height, 14);
+  double y[SB_STUDY_SERIES];
+  qsort(name, (size_t)count, sizeof *name, by_height);
+  for (int i = 0; i < count; i++) {
+    y[i] = name[i].end.y;
+  }
+  sb_labels_spread(y, count, 14, r.y - 4, r.y + r.height);
   double x = r.x + r.width + 20;
   for (int i = 0; i < count; i++) {
-    Look look = series_look(plot->study, name[i].series);
-    sb_canvas_color(c, sb_canvas_role(c, look.role), 1);
-    sb_canvas_pen(c, 1, look.dash);
-    cairo_move_to(c->cr, name[i].end.x + 4, name[i].end.y);
-    cairo_line_to(c->cr, x - 4, name[i].y);
-    cairo_stroke(c->cr);
+    SbStroke look = series_look(plot->study, name[i].series);
+    sb_canvas_line(c, (SbStroke){look.role, 1, look.dash}, name[i].end.x + 4, name[i].end.y, x - 4,
+                   y[i]);
     g_autofree char *shown = sb_translation_of_case(name[i].series->name);
-    sb_canvas_text_fit_ends(c, shown, &style, x, name[i].y + 4.3, width - 22);
+    sb_canvas_text_fit_ends(c, shown, &style, x, y[i] + 4.3, width - 22);
   }
 }
 
@@ -455,7 +356,7 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   Name name[SB_STUDY_SERIES];
   int count = 0, named = 0;
-  double far = plot->plot.x + 0.86 * plot->plot.width;
+  double far = plot->at.plot.x + 0.86 * plot->at.plot.width;
   for (size_t s = 0; s < plot->panel->series_count; s++) {
     const SbStudySeries *series = &plot->panel->series[s];
     size_t last = series->count;
@@ -468,19 +369,16 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
     named++;
     SbPoint end = points[s][last - 1];
     if (end.x >= far && gutter > 0) {
-      name[count++] = (Name){series, end, end.y};
+      name[count++] = (Name){series, end};
       continue;
     }
-    SbPlace at;
     const SbPlace places[] = {{end.x + 7, end.y + 4, SB_LEFT},   {end.x + 5, end.y - 7, SB_LEFT},
                               {end.x + 5, end.y + 15, SB_LEFT},  {end.x, end.y - 9, SB_MIDDLE},
                               {end.x - 6, end.y - 6, SB_RIGHT},  {end.x - 6, end.y + 14, SB_RIGHT},
                               {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT},
                               {end.x, end.y - 22, SB_RIGHT},     {end.x, end.y + 30, SB_RIGHT}};
     g_autofree char *shown = sb_translation_of_case(series->name);
-    if (sb_labels_place(plot->labels, c, shown, &style, places, G_N_ELEMENTS(places), &at)) {
-      sb_labels_draw(plot->labels, c, shown, &style, &at);
-    }
+    sb_labels_put(plot->labels, c, shown, &style, places, G_N_ELEMENTS(places));
   }
   if (count > 0) {
     draw_gutter(plot, name, count, gutter);
@@ -518,17 +416,17 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
       .study = study,
       .panel = panel,
       .labels = labels,
-      .card = rect,
-      .plot = {rect.x + pad + 36, rect.y + TITLE,
-               rect.width - 2 * pad - (narrow ? 42 : 30) - gutter,
-               fmax(rect.height - TITLE - FOOT, 20)},
+      .at.card = rect,
+      .at.plot = {rect.x + pad + 36, rect.y + TITLE,
+                  rect.width - 2 * pad - (narrow ? 42 : 30) - gutter,
+                  fmax(rect.height - TITLE - FOOT, 20)},
       .x_unit = unit_of(&study->x),
       .x_zero = sb_quantity_to_shown(0, study->x.si, study->x.unit),
       .y_unit = unit_of(&panel->y),
   };
   set_scales(&plot);
   fit_numbers(&plot);
-  SbRect r = plot.plot;
+  SbRect r = plot.at.plot;
   double right = fmin(r.x + r.width + 12, rect.x + rect.width - 4);
   sb_labels_init(labels, (SbRect){r.x - 2, r.y - 10, right - r.x + 2, r.height + 10});
   draw_axes(&plot);

@@ -100,22 +100,17 @@ static void draw_scale(const Map *map) {
 }
 
 // A profile's heights; no more points than pixels can show.
-static void draw_line(const Map *map, const SbScale *x, const SbScale *y) {
+static void draw_line(const Map *map, const SbAxes *at) {
   const SbHeights *h = map->heights;
   SbCanvas *c = map->canvas;
   const size_t step = h->columns / 8192 + 1;
   g_autofree SbPoint *point = g_new(SbPoint, h->columns / step + 1);
   size_t count = 0;
   for (size_t j = 0; j < h->columns; j += step) {
-    point[count++] =
-        (SbPoint){sb_axis_at(x, (double)j * h->dx / map->lateral), sb_axis_at(y, h->z[j] * 1e6)};
+    point[count++] = sb_axes_at(at, (double)j * h->dx / map->lateral, h->z[j] * 1e6);
   }
-  cairo_save(c->cr);
-  cairo_rectangle(c->cr, map->plot.x, map->plot.y, map->plot.width, map->plot.height);
-  cairo_clip(c->cr);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-  sb_canvas_pen(c, 1.2, NULL);
-  sb_canvas_polyline(c, point, count);
+  sb_canvas_clip(c, map->plot);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_INK, 1.2, NULL}, point, count);
   cairo_restore(c->cr);
 }
 
@@ -141,24 +136,20 @@ void sb_surface_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   }
   map.plot = room;
   const double top = surface ? height / map.lateral : 3.5 * sq * 1e6;
-  const SbScale x = {0, width / map.lateral, room.x, room.x + room.width, false};
+  g_autofree char *name = g_strdup_printf(surface ? "x, y / %s" : "x / %s", length);
+  SbAxes at = {.x_name = name};
   // Rows are counted downwards, as pictures are.
-  const SbScale y = surface ? (SbScale){0, top, room.y, room.y + room.height, false}
-                            : (SbScale){-top, top, room.y + room.height, room.y, false};
-  SbTicks x_ticks, y_ticks;
-  sb_axis_ticks(&x_ticks, x.lo, x.hi, room.width > 300 ? 6 : 3);
-  sb_axis_ticks(&y_ticks, y.lo, y.hi, room.height > 300 ? 6 : 3);
-  sb_axis_draw(&canvas, room, &x, &x_ticks, &y, &y_ticks);
+  sb_axes_linear(&at, room, 0, width / map.lateral, surface ? top : -top, surface ? 0 : top);
+  sb_axes_ticks(&at, room.width > 300 ? 6 : 3, room.height > 300 ? 6 : 3);
+  sb_axes_draw(&canvas, &at, NULL);
   if (surface) {
     draw_image(&map);
     draw_scale(&map);
   } else {
-    draw_line(&map, &x, &y);
+    draw_line(&map, &at);
   }
-  const SbTextStyle style = sb_canvas_style(&canvas, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  g_autofree char *name = g_strdup_printf(surface ? "x, y / %s" : "x / %s", length);
-  sb_canvas_text(&canvas, name, &style, room.x + room.width, rect.y + rect.height - 14, SB_RIGHT);
   if (!surface) {
+    const SbTextStyle style = sb_canvas_style(&canvas, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
     sb_canvas_text(&canvas, "z / \xc2\xb5m", &style, rect.x + 14, rect.y + 30, SB_LEFT);
   }
   sb_canvas_finish(&canvas);

@@ -56,22 +56,6 @@ typedef struct {
   bool whole; // no playhead
 } View;
 
-static void hatch(View *v, double x0, double x1) {
-  cairo_t *cr = v->canvas.cr;
-  cairo_save(cr);
-  cairo_rectangle(cr, x0, v->top, x1 - x0, v->bottom - v->top);
-  cairo_clip(cr);
-  sb_canvas_pen(&v->canvas, 0.7, NULL);
-  sb_canvas_color(&v->canvas, sb_canvas_role(&v->canvas, SB_ROLE_AXIS), 0.8);
-  double h = v->bottom - v->top;
-  for (double x = x0 - h; x < x1; x += 11) {
-    cairo_move_to(cr, x, v->bottom);
-    cairo_line_to(cr, x + h, v->top);
-  }
-  cairo_stroke(cr);
-  cairo_restore(cr);
-}
-
 // Pixels of the strip that an event begins.
 static void strip_of(const View *v, int event, double *x0, double *x1) {
   double last = sb_trace_range(v->data->run.trace).time_max;
@@ -97,7 +81,8 @@ static void draw_strips(View *v) {
   }
   double done = sb_axis_at(&v->x, last);
   if (v->data->run.state == SB_CHART_PARTIAL || v->data->run.state == SB_CHART_FAILED) {
-    hatch(v, done, v->rect.x + v->rect.width);
+    const SbRect lacking = {done, v->top, v->rect.x + v->rect.width - done, v->bottom - v->top};
+    sb_canvas_hatch(c, lacking, 11, false, SB_ROLE_AXIS, 0.8);
   }
 }
 
@@ -114,15 +99,11 @@ static void draw_displacement(View *v) {
   for (size_t i = 0; i < n; i++) {
     q[i] = (SbPoint){sb_axis_at(&v->x, p[i].time), sb_axis_at(&v->s, p[i].displacement)};
   }
-  sb_canvas_pen(c, 1.4, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_SECOND), 1);
-  sb_canvas_polyline(c, q, n);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_SECOND, 1.4, NULL}, q, n);
   sb_labels_avoid(v->labels, q, n, 1);
   q[split + 1] = (SbPoint){sb_axis_at(&v->x, run->frames[now].time),
                            sb_axis_at(&v->s, run->frames[now].displacement)};
-  sb_canvas_pen(c, 2.4, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-  sb_canvas_polyline(c, q, split + 2);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_INK, 2.4, NULL}, q, split + 2);
 }
 
 static void draw_events(View *v) {
@@ -138,11 +119,8 @@ static void draw_events(View *v) {
     double x = sb_axis_at(&v->x, v->event[i].mark.time);
     if (i > 0 && v->event[i].cycle != v->event[i - 1].cycle) {
       // A cycle ends and the next one begins.
-      sb_canvas_pen(c, 1.6, NULL);
-      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-      cairo_move_to(c->cr, floor(x) + 0.5, v->top - 3);
-      cairo_line_to(c->cr, floor(x) + 0.5, v->bottom + 6);
-      cairo_stroke(c->cr);
+      sb_canvas_line(c, (SbStroke){SB_ROLE_INK, 1.6, NULL}, floor(x) + 0.5, v->top - 3,
+                     floor(x) + 0.5, v->bottom + 6);
     }
     sb_canvas_hairline(c, x, v->top - 3, x, v->bottom, sb_canvas_role(c, SB_ROLE_AXIS));
     // Letters stand apart by at least 4 px, to the right of their line if they must.
@@ -162,33 +140,19 @@ static void draw_events(View *v) {
   }
 }
 
+static void time_text(char *out, const SbTicks *ticks, double value) {
+  sb_axis_text(out, ticks, value);
+  g_strlcat(out, value == 0 ? " s" : "", SB_FORMAT_MAX);
+}
+
 static void draw_axis(View *v) {
-  SbCanvas *c = &v->canvas;
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  SbColor axis = sb_canvas_role(c, SB_ROLE_AXIS);
-  double right = v->rect.x + v->rect.width;
-  sb_canvas_hairline(c, v->rect.x, v->bottom, right, v->bottom, axis);
-  SbTicks t;
-  sb_axis_ticks(&t, 0, v->x.hi, v->rect.width > 700 ? 8 : 5);
-  char text[SB_FORMAT_MAX];
-  for (int i = 0; i < t.count; i++) {
-    double x = sb_axis_at(&v->x, t.value[i]);
-    sb_canvas_hairline(c, x, v->bottom, x, v->bottom + 6, axis);
-    if (t.value[i] == 0) {
-      sb_canvas_text(c, "0 s", &label, v->rect.x, v->bottom + 20, SB_LEFT);
-    } else {
-      sb_format_fixed(text, t.value[i], t.decimals);
-      double half = 0.5 * sb_canvas_text_width(c, text, &label);
-      sb_canvas_text(c, text, &label, fmin(x, right - half), v->bottom + 20, SB_MIDDLE);
-    }
-    for (int k = 1; k < 5; k++) {
-      double minor = t.value[i] + k * t.step / 5;
-      if (minor < v->x.hi && sb_axis_at(&v->x, minor) - x > 5.0 * k) {
-        double mx = sb_axis_at(&v->x, minor);
-        sb_canvas_hairline(c, mx, v->bottom, mx, v->bottom + 3, axis);
-      }
-    }
-  }
+  SbAxes at = {.plot = {v->rect.x, v->top, v->rect.width, v->bottom - v->top},
+               .x = v->x,
+               .x_text = time_text,
+               .card = v->rect,
+               .minor = 5};
+  sb_axes_ticks(&at, v->rect.width > 700 ? 8 : 5, 0);
+  sb_axes_draw(&v->canvas, &at, NULL);
 }
 
 // Where a bookmark's name stands, above the strips: bare flags where another's name is.
@@ -265,19 +229,13 @@ bool sb_timeline_marker_hit(size_t *index, SbRect rect, const SbChartData *data,
 
 static void draw_markers(View *v) {
   SbCanvas *c = &v->canvas;
-  SbColor violet = sb_canvas_role(c, SB_ROLE_VIOLET);
   SbTextStyle style = flag_style(c);
   Flag *flags = place_flags(c, v->rect, &v->x, v->data);
   for (size_t i = 0; i < v->data->marker_count; i++) {
     const SbRect *plate = &flags[i].plate;
     double x = floor(sb_axis_at(&v->x, flags[i].marker->time)) + 0.5;
-    sb_canvas_pen(c, 1.4, &sb_dash_dimension);
-    sb_canvas_color(c, violet, 1);
-    cairo_move_to(c->cr, x, v->top);
-    cairo_line_to(c->cr, x, v->bottom);
-    cairo_stroke(c->cr);
-    cairo_rectangle(c->cr, plate->x, plate->y, plate->width, plate->height);
-    cairo_fill(c->cr);
+    sb_canvas_line(c, (SbStroke){SB_ROLE_VIOLET, 1.4, &sb_dash_dimension}, x, v->top, x, v->bottom);
+    sb_canvas_fill(c, *plate, SB_ROLE_VIOLET, 1);
     if (flags[i].named) {
       sb_canvas_text(c, flags[i].marker->name, &style, plate->x + 3, v->top - 5.5, SB_LEFT);
     }
@@ -364,11 +322,7 @@ static void draw_playhead(View *v) {
   const SbFrame *frame = sb_chart_frame(v->data);
   double x = sb_axis_at(&v->x, frame->time), y = sb_axis_at(&v->s, frame->displacement);
   SbColor now = sb_canvas_role(c, SB_ROLE_NOW);
-  sb_canvas_pen(c, 2, NULL);
-  sb_canvas_color(c, now, 1);
-  cairo_move_to(c->cr, x, v->top - 14);
-  cairo_line_to(c->cr, x, v->bottom + 6);
-  cairo_stroke(c->cr);
+  sb_canvas_line(c, (SbStroke){SB_ROLE_NOW, 2, NULL}, x, v->top - 14, x, v->bottom + 6);
   cairo_move_to(c->cr, x - 6, v->top - 18);
   cairo_line_to(c->cr, x + 6, v->top - 18);
   cairo_line_to(c->cr, x, v->top - 8);

@@ -1,9 +1,10 @@
 // Ticks at 1-2-5 times powers of ten. Between two neighbouring steps of that series the ratio is at
 // most 2.5, so a range that shows nine marks at one step shows at least three at the next: three to
-// eight can always be had. Leaves out time axes and minor marks.
+// eight can always be had.
 #include "app/draw/axis.h"
 #include "app/base/format.h"
 
+#include <glib.h>
 #include <math.h>
 #include <stdlib.h>
 
@@ -164,21 +165,139 @@ void sb_axis_log_ticks(SbTicks *out, double lo, double hi) {
   }
 }
 
-void sb_axis_draw(SbCanvas *c, SbRect plot, const SbScale *x, const SbTicks *x_ticks,
-                  const SbScale *y, const SbTicks *y_ticks) {
-  char text[SB_FORMAT_MAX];
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  double right = plot.x + plot.width, bottom = plot.y + plot.height;
-  for (int i = 0; i < y_ticks->count; i++) {
-    double at = sb_axis_at(y, y_ticks->value[i]);
-    sb_canvas_hairline(c, plot.x, at, right, at, sb_canvas_role(c, SB_ROLE_GRID));
-    sb_format_fixed(text, y_ticks->value[i], y_ticks->decimals);
-    sb_canvas_text(c, text, &label, plot.x - 8, at + 4.3, SB_RIGHT);
+void sb_axis_text(char *out, const SbTicks *ticks, double value) {
+  if (ticks->step > 0) {
+    const double most = fmax(fabs(ticks->value[0]), fabs(ticks->value[ticks->count - 1]));
+    const int exponent = most > 0 ? (int)floor(log10(most) + 1e-9) : 0;
+    if (value == 0 || (exponent > -4 && exponent < 6)) {
+      sb_format_fixed(out, value, ticks->decimals);
+      return;
+    }
+    char number[SB_FORMAT_MAX], power[SB_FORMAT_MAX];
+    sb_format_fixed(number, value / pow(10, exponent), MAX(ticks->decimals + exponent, 0));
+    g_snprintf(out, SB_FORMAT_MAX, "%s\xc2\xb7%s", number, sb_format_power(power, exponent));
+  } else if (value >= 0.999e-3 && value < 1.001e4) {
+    sb_format_digits(out, value, 1);
+  } else {
+    const int exponent = (int)floor(log10(value) + 1e-9);
+    const double mantissa = value / pow(10, exponent);
+    char power[SB_FORMAT_MAX];
+    sb_format_power(power, exponent);
+    if (mantissa < 1.5) {
+      g_strlcpy(out, power, SB_FORMAT_MAX);
+    } else {
+      g_snprintf(out, SB_FORMAT_MAX, "%.0f\xc2\xb7%s", mantissa, power);
+    }
   }
-  for (int i = 0; i < x_ticks->count; i++) {
-    double at = sb_axis_at(x, x_ticks->value[i]);
-    sb_canvas_hairline(c, at, bottom, at, bottom + 5, sb_canvas_role(c, SB_ROLE_AXIS));
-    sb_format_fixed(text, x_ticks->value[i], x_ticks->decimals);
-    sb_canvas_text(c, text, &label, floor(at) + 0.5, bottom + 18, SB_MIDDLE);
+}
+
+void sb_axes_linear(SbAxes *axes, SbRect plot, double x0, double x1, double y0, double y1) {
+  axes->plot = plot;
+  axes->x = (SbScale){x0, x1, plot.x, plot.x + plot.width, false};
+  axes->y = (SbScale){y0, y1, plot.y + plot.height, plot.y, false};
+}
+
+static void set_ticks(SbTicks *out, const SbScale *scale, int wanted) {
+  if (wanted == 0) {
+    out->count = 0;
+  } else if (scale->logarithmic) {
+    sb_axis_log_ticks(out, scale->lo, scale->hi);
+  } else {
+    sb_axis_ticks(out, scale->lo, scale->hi, wanted);
   }
+}
+
+void sb_axes_ticks(SbAxes *axes, int x, int y) {
+  set_ticks(&axes->x_ticks, &axes->x, x);
+  set_ticks(&axes->y_ticks, &axes->y, y);
+}
+
+SbPoint sb_axes_at(const SbAxes *axes, double x, double y) {
+  return (SbPoint){sb_axis_at(&axes->x, x), sb_axis_at(&axes->y, y)};
+}
+
+bool sb_axes_inside(const SbAxes *axes, double x, double y, double margin) {
+  const SbRect r = axes->plot;
+  return x >= r.x - margin && x <= r.x + r.width + margin && y >= r.y - margin &&
+         y <= r.y + r.height + margin;
+}
+
+// Lines across the plot with their numbers.
+static void draw_y(SbCanvas *c, const SbAxes *axes, SbLabels *labels) {
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  const SbRect r = axes->plot;
+  const double right = r.x + r.width, bottom = r.y + r.height;
+  for (int i = 0; i < axes->y_ticks.count; i++) {
+    const double value = axes->y_ticks.value[i], y = sb_axis_at(&axes->y, value);
+    if (y < r.y - 0.5 || y > bottom + 0.5) {
+      continue;
+    }
+    sb_canvas_hairline(c, r.x, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
+    if (labels != NULL) {
+      sb_labels_avoid(labels, (SbPoint[]){{r.x, y}, {right, y}}, 2, 0.01);
+    }
+    if (!axes->bare) {
+      char text[SB_FORMAT_MAX];
+      (axes->y_text != NULL ? axes->y_text : sb_axis_text)(text, &axes->y_ticks, value);
+      sb_canvas_text(c, text, &style, r.x - 8, y + 4.3, SB_RIGHT);
+    }
+  }
+}
+
+// Short lines below the plot, and up to the next step.
+static void draw_marks(SbCanvas *c, const SbAxes *axes, double value) {
+  const SbColor color = sb_canvas_role(c, axes->upright ? SB_ROLE_GRID : SB_ROLE_AXIS);
+  const double x = sb_axis_at(&axes->x, value), bottom = axes->plot.y + axes->plot.height;
+  sb_canvas_hairline(c, x, axes->upright ? axes->plot.y : bottom, x,
+                     axes->upright ? bottom : bottom + 5, color);
+  for (int k = 1; k < axes->minor; k++) {
+    const double between = value + k * axes->x_ticks.step / axes->minor;
+    const double at = sb_axis_at(&axes->x, between);
+    if (between < axes->x.hi && at - x > 5.0 * k) {
+      sb_canvas_hairline(c, at, bottom, at, bottom + 3, color);
+    }
+  }
+}
+
+static void draw_x(SbCanvas *c, const SbAxes *axes) {
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  const SbRect r = axes->plot, card = axes->card;
+  const double bottom = r.y + r.height;
+  double free_from = -INFINITY;
+  for (int i = 0; i < axes->x_ticks.count; i++) {
+    const double value = axes->x_ticks.value[i];
+    char text[SB_FORMAT_MAX];
+    draw_marks(c, axes, value);
+    (axes->x_text != NULL ? axes->x_text : sb_axis_text)(text, &axes->x_ticks, value);
+    const double half = 0.5 * sb_canvas_text_width(c, text, &style);
+    double x = floor(sb_axis_at(&axes->x, value)) + 0.5;
+    if (card.width > 0) {
+      x = fmax(fmin(x, card.x + card.width - half), card.x + half);
+    }
+    if (x - half >= free_from) {
+      sb_canvas_text(c, text, &style, x, bottom + 18, SB_MIDDLE);
+      free_from = x + half + 6;
+    }
+  }
+  if (axes->x_name != NULL) {
+    const double left = r.x + r.width - sb_canvas_text_width(c, axes->x_name, &style);
+    const double first = card.width > 0 ? fmax(left, card.x + 12) : left;
+    const double end = card.width > 0 ? card.x + card.width - 12 : r.x + r.width + 1;
+    sb_canvas_text_fit(c, axes->x_name, &style, first, bottom + 36, end - first);
+  }
+}
+
+void sb_axes_draw(SbCanvas *c, const SbAxes *axes, SbLabels *labels) {
+  const SbColor color = sb_canvas_role(c, SB_ROLE_AXIS);
+  const double left = axes->plot.x, right = left + axes->plot.width;
+  const double bottom = axes->plot.y + axes->plot.height;
+  draw_y(c, axes, labels);
+  if (!axes->upright) {
+    sb_canvas_hairline(c, left, bottom, right, bottom, color);
+  }
+  const double zero = axes->y_ticks.count > 0 ? sb_axis_at(&axes->y, 0) : bottom;
+  if (zero > axes->plot.y + 1 && zero < bottom - 1) {
+    sb_canvas_hairline(c, left, zero, right, zero, color);
+  }
+  draw_x(c, axes);
 }

@@ -1,7 +1,7 @@
 // Scales and ticks of charts: from data to pixels, and the positions of the tick marks.
 #pragma once
 
-#include "app/draw/canvas.h"
+#include "app/draw/label.h"
 
 // Largest number of ticks.
 enum { SB_TICKS_MAX = 12 };
@@ -43,7 +43,40 @@ void sb_axis_log_ticks(SbTicks *out, double lo, double hi);
 // Extends [lo, hi] to multiples of the step that sb_axis_ticks() would use.
 void sb_axis_round_out(double *lo, double *hi, int wanted);
 
-// Draws lines across the rectangle `plot` [px] at the ticks of y, short lines below it at the ticks
-// of x, and their numbers.
-void sb_axis_draw(SbCanvas *c, SbRect plot, const SbScale *x, const SbTicks *x_ticks,
-                  const SbScale *y, const SbTicks *y_ticks);
+// Writes the number of the tick `value` to out[SB_FORMAT_MAX].
+typedef void (*SbTickText)(char *out, const SbTicks *ticks, double value);
+
+// Writes a tick with the decimals of the axis; with a power of ten where digits alone would be
+// many.
+void sb_axis_text(char *out, const SbTicks *ticks, double value);
+
+// The axes of a plot. Members that are zero have the stated default.
+typedef struct {
+  SbRect plot;               // area of the curves [px]
+  SbScale x, y;              // from values to pixels
+  SbTicks x_ticks, y_ticks;  // without ticks (count 0) an axis is not drawn
+  SbTickText x_text, y_text; // write the numbers; NULL: sb_axis_text()
+  const char *x_name;        // quantity and unit of x, under the right end; NULL: none
+  SbRect card;  // numbers and name of x stay between its left and right end; width 0: no limit
+  bool upright; // lines up the plot at the ticks of x, no lines across it
+  bool bare;    // no numbers of y: they are those of the plot on the left
+  int minor;    // parts into which short lines divide each step of x; 0: none
+} SbAxes;
+
+// Sets the plot, and linear scales with the values x0 and x1 at its left and right end, y0 and y1
+// at its lower and upper end.
+void sb_axes_linear(SbAxes *axes, SbRect plot, double x0, double x1, double y0, double y1);
+
+// Sets about `x` ticks of x and `y` ticks of y over the ranges of the scales; 0: none.
+void sb_axes_ticks(SbAxes *axes, int x, int y);
+
+// Returns the pixel of a point.
+SbPoint sb_axes_at(const SbAxes *axes, double x, double y);
+
+// Returns whether a pixel is in the plot or at most `margin` px outside of it.
+bool sb_axes_inside(const SbAxes *axes, double x, double y, double margin);
+
+// Draws the axes: lines across the plot at the ticks of y, the lower end of the plot, the line y =
+// 0 if it is inside, short lines below the plot at the ticks of x, the numbers that do not overlap,
+// and the name. `labels` then avoid the lines across; NULL: none.
+void sb_axes_draw(SbCanvas *c, const SbAxes *axes, SbLabels *labels);

@@ -2,7 +2,6 @@
 // looks at device pixels, so that a picture at scale 2 keeps twice the points. Leaves out clipping:
 // callers clip to their plot.
 #include "app/draw/canvas.h"
-#include "app/base/translation.h"
 
 #include <glib.h>
 #include <math.h>
@@ -57,6 +56,11 @@ void sb_canvas_color(SbCanvas *canvas, SbColor color, double alpha) {
 void sb_canvas_pen(SbCanvas *canvas, double width, const SbDash *dash) {
   cairo_set_line_width(canvas->cr, width);
   cairo_set_dash(canvas->cr, dash ? dash->length : NULL, dash ? dash->count : 0, 0);
+}
+
+void sb_canvas_stroke(SbCanvas *canvas, SbStroke stroke) {
+  sb_canvas_pen(canvas, stroke.width, stroke.dash);
+  sb_canvas_color(canvas, sb_canvas_role(canvas, stroke.role), 1);
 }
 
 SbTextStyle sb_canvas_style(const SbCanvas *canvas, double size, int weight, SbRole role) {
@@ -314,15 +318,51 @@ void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count) {
   walk(canvas, point, count, true);
 }
 
-double sb_canvas_predicted(SbCanvas *canvas, double right, double y) {
-  const SbTextStyle style = sb_canvas_style(canvas, SB_TYPE_LABEL, 600, SB_ROLE_INK);
-  const char *predicted = sb_translation("predicted");
-  const double left = right - sb_canvas_text_width(canvas, predicted, &style) - 8;
-  sb_canvas_pen(canvas, SB_LINE_SEAL, &sb_dash_predicted);
-  sb_canvas_color(canvas, sb_canvas_role(canvas, SB_ROLE_INK), 1);
-  sb_canvas_polyline(canvas, (SbPoint[]){{left - 24, y - 5}, {left, y - 5}}, 2);
-  sb_canvas_text(canvas, predicted, &style, right, y, SB_RIGHT);
-  return right - left + 24;
+void sb_canvas_curve(SbCanvas *canvas, SbStroke stroke, const SbPoint *point, size_t count) {
+  sb_canvas_stroke(canvas, stroke);
+  sb_canvas_polyline(canvas, point, count);
+}
+
+void sb_canvas_line(SbCanvas *canvas, SbStroke stroke, double x0, double y0, double x1, double y1) {
+  sb_canvas_stroke(canvas, stroke);
+  cairo_move_to(canvas->cr, x0, y0);
+  cairo_line_to(canvas->cr, x1, y1);
+  cairo_stroke(canvas->cr);
+}
+
+void sb_canvas_fill(SbCanvas *canvas, SbRect rect, SbRole role, double alpha) {
+  sb_canvas_color(canvas, sb_canvas_role(canvas, role), alpha);
+  cairo_rectangle(canvas->cr, rect.x, rect.y, rect.width, rect.height);
+  cairo_fill(canvas->cr);
+}
+
+void sb_canvas_area(SbCanvas *canvas, const SbPoint *point, size_t count, SbRole role,
+                    double alpha) {
+  cairo_new_path(canvas->cr);
+  sb_canvas_path(canvas, point, count);
+  cairo_close_path(canvas->cr);
+  sb_canvas_color(canvas, sb_canvas_role(canvas, role), alpha);
+  cairo_fill(canvas->cr);
+}
+
+void sb_canvas_clip(SbCanvas *canvas, SbRect rect) {
+  cairo_save(canvas->cr);
+  cairo_rectangle(canvas->cr, rect.x, rect.y, rect.width, rect.height);
+  cairo_clip(canvas->cr);
+}
+
+void sb_canvas_hatch(SbCanvas *canvas, SbRect rect, double pitch, bool left, SbRole role,
+                     double alpha) {
+  const double bottom = rect.y + rect.height;
+  sb_canvas_clip(canvas, rect);
+  sb_canvas_pen(canvas, 0.7, NULL);
+  sb_canvas_color(canvas, sb_canvas_role(canvas, role), alpha);
+  for (double x = rect.x - rect.height; x < rect.x + rect.width; x += pitch) {
+    cairo_move_to(canvas->cr, x, left ? rect.y : bottom);
+    cairo_line_to(canvas->cr, x + rect.height, left ? bottom : rect.y);
+  }
+  cairo_stroke(canvas->cr);
+  cairo_restore(canvas->cr);
 }
 
 void sb_canvas_path(SbCanvas *canvas, const SbPoint *point, size_t count) {

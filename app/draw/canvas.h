@@ -41,6 +41,9 @@ void sb_canvas_color(SbCanvas *canvas, SbColor color, double alpha);
 // Sets the line width [px], the dash (NULL: solid), butt caps and round joins.
 void sb_canvas_pen(SbCanvas *canvas, double width, const SbDash *dash);
 
+// Sets colour, width and dash of the lines that follow.
+void sb_canvas_stroke(SbCanvas *canvas, SbStroke stroke);
+
 // Returns a style with the theme's colour for a role.
 SbTextStyle sb_canvas_style(const SbCanvas *canvas, double size, int weight, SbRole role);
 
@@ -97,9 +100,26 @@ void sb_canvas_hairline(SbCanvas *canvas, double x0, double y0, double x1, doubl
 // interrupt the line.
 void sb_canvas_polyline(SbCanvas *canvas, const SbPoint *point, size_t count);
 
-// Draws the legend of predicted curves, a piece of the line and its name. It ends at x = `right`;
-// the baseline of the name is y. Returns its width [px].
-double sb_canvas_predicted(SbCanvas *canvas, double right, double y);
+// Strokes such a polyline in a style, which stays set.
+void sb_canvas_curve(SbCanvas *canvas, SbStroke stroke, const SbPoint *point, size_t count);
+
+// Strokes the straight line from (x0, y0) to (x1, y1) in a style, which stays set.
+void sb_canvas_line(SbCanvas *canvas, SbStroke stroke, double x0, double y0, double x1, double y1);
+
+// Fills a rectangle with the theme's colour for a role and the opacity `alpha`.
+void sb_canvas_fill(SbCanvas *canvas, SbRect rect, SbRole role, double alpha);
+
+// Fills the polygon point[count], thinned as a polyline.
+void sb_canvas_area(SbCanvas *canvas, const SbPoint *point, size_t count, SbRole role,
+                    double alpha);
+
+// Saves cairo's state and restricts drawing to a rectangle, until cairo_restore().
+void sb_canvas_clip(SbCanvas *canvas, SbRect rect);
+
+// Hatches a rectangle with lines at 45 degrees, `pitch` apart along its bottom [px]; they lean to
+// the right, or to the left if `left`.
+void sb_canvas_hatch(SbCanvas *canvas, SbRect rect, double pitch, bool left, SbRole role,
+                     double alpha);
 
 // Adds the thinned polyline to cairo's current path without stroking it.
 void sb_canvas_path(SbCanvas *canvas, const SbPoint *point, size_t count);

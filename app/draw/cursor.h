@@ -4,6 +4,12 @@
 
 #include "app/draw/canvas.h"
 
+// Draws the dashed line from the present instant down to y = `bottom`.
+void sb_cursor_drop(SbCanvas *c, SbPoint now, double bottom);
+
+// Draws the dot of the present instant.
+void sb_cursor_now(SbCanvas *c, SbPoint now);
+
 // Draws the line at pixel x in the rectangle `plot` of the curves, dots on it at the pixels
 // dot[dots] of y (NaN: none), and the one line `text` on a plate next to the line, inside of
 // `bounds`, the rectangle of the chart. All in pixels of the picture.

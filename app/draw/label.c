@@ -141,3 +141,28 @@ void sb_labels_draw(const SbLabels *labels, SbCanvas *canvas, const char *text,
     sb_canvas_text(canvas, text, style, at->x, at->y, at->align);
   }
 }
+
+bool sb_labels_put(SbLabels *labels, SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                   const SbPlace *place, int count) {
+  SbPlace at;
+  if (!sb_labels_place(labels, canvas, text, style, place, count, &at)) {
+    return false;
+  }
+  sb_labels_draw(labels, canvas, text, style, &at);
+  return true;
+}
+
+void sb_labels_spread(double *y, int count, double line, double top, double bottom) {
+  enum { ROUNDS = 60 };
+  for (int round = 0; round < ROUNDS; round++) {
+    for (int i = 1; i < count; i++) {
+      const double lack = fmax(line - (y[i] - y[i - 1]), 0);
+      y[i] += lack / 2;
+      y[i - 1] -= lack / 2;
+    }
+    for (int i = 0; i < count; i++) {
+      const double first = top + line * i, last = bottom - line * (count - 1 - i);
+      y[i] = y[i] > fmax(first, last) ? fmax(first, last) : fmax(y[i], first);
+    }
+  }
+}

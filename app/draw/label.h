@@ -57,6 +57,15 @@ bool sb_labels_place_box(SbLabels *labels, double width, double size, const SbPl
 void sb_labels_draw(const SbLabels *labels, SbCanvas *canvas, const char *text,
                     const SbTextStyle *style, const SbPlace *at);
 
+// Draws a text at the best free one of place[count], as sb_labels_place() and sb_labels_draw() do.
+// Returns false if none is free.
+bool sb_labels_put(SbLabels *labels, SbCanvas *canvas, const char *text, const SbTextStyle *style,
+                   const SbPlace *place, int count);
+
+// Moves heights y[count], which increase, apart to distances of at least `line`, and between `top`
+// and `bottom` (which may be infinite): neighbours move by equal amounts.
+void sb_labels_spread(double *y, int count, double line, double top, double bottom);
+
 // Returns whether a box would cover an occupied one or leave the bounds.
 bool sb_labels_hits(const SbLabels *labels, SbRect box);
 

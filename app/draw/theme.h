@@ -78,6 +78,13 @@ typedef struct {
   double length[4];
 } SbDash;
 
+// Style of a line.
+typedef struct {
+  SbRole role;        // its colour
+  double width;       // [px]
+  const SbDash *dash; // NULL: solid
+} SbStroke;
+
 // The patterns in use, each named after what it draws.
 extern const SbDash sb_dash_pinned, sb_dash_predicted, sb_dash_reference, sb_dash_dimension,
     sb_dash_centre, sb_dash_dose, sb_dash_now;

@@ -33,8 +33,7 @@ typedef struct {
   SbCanvas *c;
   const SbDesignAnswer *answer;
   const SbDesignMap *map;
-  SbScale x, y; // in the units that people read
-  SbRect plot;
+  SbAxes at; // in display units
   SbLabels labels;
 } View;
 
@@ -43,14 +42,13 @@ static double shown(SbParamId id, double value) {
 }
 
 static SbPoint place_of(const View *v, double across, double up) {
-  return (SbPoint){sb_axis_at(&v->x, shown(v->map->axis[0], across)),
-                   sb_axis_at(&v->y, shown(v->map->axis[1], up))};
+  return sb_axes_at(&v->at, shown(v->map->axis[0], across), shown(v->map->axis[1], up));
 }
 
 static SbPoint point_of(const View *v, size_t across, size_t up) {
   const double last = (double)(v->map->n - 1);
-  return (SbPoint){v->plot.x + v->plot.width * (double)across / last,
-                   v->plot.y + v->plot.height * (1 - (double)up / last)};
+  return (SbPoint){v->at.plot.x + v->at.plot.width * (double)across / last,
+                   v->at.plot.y + v->at.plot.height * (1 - (double)up / last)};
 }
 
 // A triangle of the map with a figure at its corners.
@@ -153,8 +151,9 @@ static void add_beyond(void *data, const Triangle *of) {
 static void hatch(const View *v, size_t number) {
   static const double angles[] = {45, -45, 0, 90, 22, -22, 67, -67};
   const double angle = angles[number % G_N_ELEMENTS(angles)] * M_PI / 180;
-  const double gap = 9, reach = v->plot.width + v->plot.height;
-  const SbPoint middle = {v->plot.x + v->plot.width / 2, v->plot.y + v->plot.height / 2};
+  const double gap = 9, reach = v->at.plot.width + v->at.plot.height;
+  const SbPoint middle = {v->at.plot.x + v->at.plot.width / 2,
+                          v->at.plot.y + v->at.plot.height / 2};
   cairo_t *cr = v->c->cr;
   cairo_save(cr);
   cairo_clip(cr);
@@ -278,16 +277,14 @@ static void reverse(GArray *chain) {
 }
 
 typedef struct {
-  double width;
-  const SbDash *dash;
-  SbColor color;
+  SbStroke stroke;
   double size; // of its text
   int weight;
 } LineLook;
 
 // A text along the line, where the line is straight and nothing else stands; its room is taken.
 static void write_along(View *v, const GArray *chain, const char *text, const LineLook *look) {
-  const SbTextStyle style = {look->size, look->weight, look->color, 1};
+  const SbTextStyle style = sb_canvas_style(v->c, look->size, look->weight, look->stroke.role);
   const double width = sb_canvas_text_width(v->c, text, &style) + 8;
   static const double shares[] = {0.5, 0.3, 0.7, 0.15, 0.85};
   double length = 0;
@@ -361,9 +358,7 @@ static void draw_line(View *v, size_t figure, double level, const char *text,
     reverse(chain);
     while (grow(chain, segments)) {
     }
-    sb_canvas_pen(v->c, look->width, look->dash);
-    sb_canvas_color(v->c, look->color, 1);
-    sb_canvas_polyline(v->c, (const SbPoint *)(const void *)chain->data, chain->len);
+    sb_canvas_curve(v->c, look->stroke, (const SbPoint *)(const void *)chain->data, chain->len);
     if (text != NULL) {
       write_along(v, chain, text, look);
     }
@@ -377,8 +372,8 @@ static LineLook look_of(const View *v, size_t figure, bool border) {
                                                 SB_ROLE_OCHRE};
   const size_t number = figure % SB_DESIGN_LINES;
   const SbDash *dash = border || dashes[number].count == 0 ? NULL : &dashes[number];
-  const SbColor color = sb_canvas_role(v->c, border && number == 0 ? SB_ROLE_INK : roles[number]);
-  return border ? (LineLook){2.4, NULL, color, 11.5, 700} : (LineLook){1, dash, color, 11, 400};
+  const SbRole role = border && number == 0 ? SB_ROLE_INK : roles[number];
+  return border ? (LineLook){{role, 2.4, NULL}, 11.5, 700} : (LineLook){{role, 1, dash}, 11, 400};
 }
 
 static void draw_levels(View *v, size_t figure) {
@@ -452,9 +447,9 @@ static void write_beside(View *v, SbPoint at, double off, const char *name, cons
   const SbTextStyle plain = sb_canvas_style(v->c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   const double width =
       fmax(sb_canvas_text_width(v->c, name, &bold), sb_canvas_text_width(v->c, text, &plain));
-  const bool right = at.x + off + width + 8 < v->plot.x + v->plot.width;
+  const bool right = at.x + off + width + 8 < v->at.plot.x + v->at.plot.width;
   const double x = right ? at.x + off : at.x - off;
-  const double y = fmin(fmax(at.y, v->plot.y + 16), v->plot.y + v->plot.height - 20);
+  const double y = fmin(fmax(at.y, v->at.plot.y + 16), v->at.plot.y + v->at.plot.height - 20);
   const SbColor ground = sb_canvas_role(v->c, SB_ROLE_PANEL);
   const SbRect box = {right ? x - 4 : x - width - 4, y - 14, width + 8, 34};
   sb_canvas_color(v->c, ground, 0.88);
@@ -542,10 +537,10 @@ static void draw_pick(View *v, const SbDesignLook *look) {
   const SbColor accent = sb_color_hex(0x2A6DB0);
   sb_canvas_color(v->c, accent, 1);
   sb_canvas_pen(v->c, 1, NULL);
-  cairo_move_to(v->c->cr, v->plot.x, at.y);
-  cairo_line_to(v->c->cr, v->plot.x + v->plot.width, at.y);
-  cairo_move_to(v->c->cr, at.x, v->plot.y);
-  cairo_line_to(v->c->cr, at.x, v->plot.y + v->plot.height);
+  cairo_move_to(v->c->cr, v->at.plot.x, at.y);
+  cairo_line_to(v->c->cr, v->at.plot.x + v->at.plot.width, at.y);
+  cairo_move_to(v->c->cr, at.x, v->at.plot.y);
+  cairo_line_to(v->c->cr, at.x, v->at.plot.y + v->at.plot.height);
   cairo_stroke(v->c->cr);
   cairo_arc(v->c->cr, at.x, at.y, 5.5, 0, 2 * M_PI);
   cairo_stroke(v->c->cr);
@@ -588,20 +583,16 @@ void sb_design_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   v->c = &canvas;
   v->answer = answer;
   v->map = map;
-  v->plot = sb_design_map_plot(rect);
   sb_canvas_init(v->c, cr, theme);
-  v->x = (SbScale){shown(map->axis[0], map->low[0]), shown(map->axis[0], map->high[0]), v->plot.x,
-                   v->plot.x + v->plot.width, false};
-  v->y = (SbScale){shown(map->axis[1], map->low[1]), shown(map->axis[1], map->high[1]),
-                   v->plot.y + v->plot.height, v->plot.y, false};
-  sb_labels_init(&v->labels, v->plot);
-  SbTicks x_ticks, y_ticks;
-  sb_axis_ticks(&x_ticks, v->x.lo, v->x.hi, 8);
-  sb_axis_ticks(&y_ticks, v->y.lo, v->y.hi, 7);
+  g_autofree char *up = axis_name(map->axis[1]), *across = axis_name(map->axis[0]);
+  sb_axes_linear(&v->at, sb_design_map_plot(rect), shown(map->axis[0], map->low[0]),
+                 shown(map->axis[0], map->high[0]), shown(map->axis[1], map->low[1]),
+                 shown(map->axis[1], map->high[1]));
+  sb_axes_ticks(&v->at, 8, 7);
+  v->at.x_name = across;
+  sb_labels_init(&v->labels, v->at.plot);
   // Where nothing is computed the ground stays the window's.
-  sb_canvas_color(v->c, sb_canvas_role(v->c, SB_ROLE_BACKGROUND), 1);
-  cairo_rectangle(cr, v->plot.x, v->plot.y, v->plot.width, v->plot.height);
-  cairo_fill(cr);
+  sb_canvas_fill(v->c, v->at.plot, SB_ROLE_BACKGROUND, 1);
   if (map->done > 0) {
     Beyond all = {v, -INFINITY, true};
     cairo_new_path(cr);
@@ -609,10 +600,8 @@ void sb_design_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
     sb_canvas_color(v->c, sb_canvas_role(v->c, SB_ROLE_PANEL), 1);
     cairo_fill(cr);
   }
-  sb_axis_draw(v->c, v->plot, &v->x, &x_ticks, &v->y, &y_ticks);
-  cairo_save(cr);
-  cairo_rectangle(cr, v->plot.x, v->plot.y, v->plot.width, v->plot.height);
-  cairo_clip(cr);
+  sb_axes_draw(v->c, &v->at, NULL);
+  sb_canvas_clip(v->c, v->at.plot);
   if (map->done > 0) {
     draw_limits(v, false);
     // The places first: lines' names keep off them.
@@ -636,12 +625,10 @@ void sb_design_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   cairo_restore(cr);
   const SbTextStyle style = sb_canvas_style(v->c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   const SbTextStyle note = sb_canvas_style(v->c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  g_autofree char *up = axis_name(map->axis[1]), *across = axis_name(map->axis[0]);
   sb_canvas_text(v->c, up, &style, rect.x + 14, rect.y + 20, SB_LEFT);
-  const double foot_y = v->plot.y + v->plot.height + 42;
-  const double wide =
-      sb_canvas_text(v->c, across, &style, v->plot.x + v->plot.width, foot_y, SB_RIGHT);
+  const double wide = sb_canvas_text_width(v->c, across, &style);
   g_autofree char *foot = foot_of(answer);
-  sb_canvas_text_fit(v->c, foot, &note, v->plot.x, foot_y, v->plot.width - wide - 16);
+  sb_canvas_text_fit(v->c, foot, &note, v->at.plot.x, v->at.plot.y + v->at.plot.height + 36,
+                     v->at.plot.width - wide - 16);
   sb_canvas_finish(v->c);
 }

@@ -6,6 +6,7 @@
 #include "app/base/translation.h"
 #include "app/base/unit.h"
 #include "app/draw/axis.h"
+#include "app/draw/frame.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -29,13 +30,6 @@ static int shown_place(const SbDesignAnswer *answer) {
   return answer->place[SB_DESIGN_BEST].known ? SB_DESIGN_BEST : SB_DESIGN_PRESENT;
 }
 
-static void draw_title(SbCanvas *c, SbRect rect, const char *title, const char *note) {
-  const SbTextStyle bold = sb_canvas_style(c, 13, 700, SB_ROLE_INK);
-  const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  const double wide = sb_canvas_text(c, title, &bold, rect.x, rect.y + 16, SB_LEFT);
-  sb_canvas_text_fit(c, note, &plain, rect.x + wide + 10, rect.y + 16, rect.width - wide - 10);
-}
-
 // Tornado -----------------------------------------------------------------------------------------
 
 static char *step_text(SbParamId id, double step, bool tolerance) {
@@ -56,7 +50,7 @@ void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   g_autofree char *note = g_strdup_printf(which == SB_DESIGN_BEST ? _("%s at the best found / %s")
                                                                   : _("%s at present / %s"),
                                           label, of->shown);
-  draw_title(c, rect, _("Which tolerance matters"), note);
+  sb_frame_title(c, rect, 13, _("Which tolerance matters"), note);
   const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
   const SbTextStyle small = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   const size_t count = column >= 0 && at->known ? at->effects[column] : 0;
@@ -86,39 +80,29 @@ void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
       ends[1] = fmax(ends[1], sides[side] + 0.15 * reach);
     }
   }
-  const SbScale x = {ends[0], ends[1], plot.x, plot.x + plot.width, false};
-  SbTicks ticks;
-  sb_axis_ticks(&ticks, x.lo, x.hi, 5);
-  for (int k = 0; k < ticks.count; k++) {
-    char digits[SB_FORMAT_MAX];
-    const double px = sb_axis_at(&x, ticks.value[k]);
-    sb_canvas_hairline(c, px, plot.y, px, plot.y + plot.height, sb_canvas_role(c, SB_ROLE_GRID));
-    sb_format_fixed(digits, ticks.value[k], ticks.decimals);
-    sb_canvas_text(c, digits, &small, px, plot.y + plot.height + 16, SB_MIDDLE);
-  }
+  SbAxes axes = {.upright = true};
+  sb_axes_linear(&axes, plot, ends[0], ends[1], 0, 1);
+  sb_axes_ticks(&axes, 5, 0);
+  sb_axes_draw(c, &axes, NULL);
   for (int side = 0; side < 2; side++) {
-    if (!isfinite(sides[side]) || sides[side] < x.lo || sides[side] > x.hi) {
+    if (!isfinite(sides[side]) || sides[side] < axes.x.lo || sides[side] > axes.x.hi) {
       continue;
     }
-    const double px = sb_axis_at(&x, sides[side]), end = side == 0 ? plot.x : plot.x + plot.width;
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR_GROUND), 1);
-    cairo_rectangle(cr, fmin(px, end), plot.y, fabs(px - end), plot.height);
-    cairo_fill(cr);
-    sb_canvas_pen(c, 1.6, NULL);
-    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
-    cairo_move_to(cr, px, plot.y);
-    cairo_line_to(cr, px, plot.y + plot.height);
-    cairo_stroke(cr);
+    const double px = sb_axis_at(&axes.x, sides[side]),
+                 end = side == 0 ? plot.x : plot.x + plot.width;
+    sb_canvas_fill(c, (SbRect){fmin(px, end), plot.y, fabs(px - end), plot.height},
+                   SB_ROLE_ERROR_GROUND, 1);
+    sb_canvas_line(c, (SbStroke){SB_ROLE_ERROR, 1.6, NULL}, px, plot.y, px, plot.y + plot.height);
   }
   const double row = fmin(21, plot.height / (double)count);
   const size_t fit = (size_t)fmax(plot.height / 14, 1);
-  const double zero = sb_axis_at(&x, middle);
+  const double zero = sb_axis_at(&axes.x, middle);
   sb_canvas_text(c, _("of the variance"), &small, rect.x + rect.width, rect.y + 32, SB_RIGHT);
   for (size_t k = 0; k < count && k < fit; k++) {
     const double y = plot.y + fmax(row, 14) * (double)k, high = fmax(row, 14);
     const double change = sb_quantity_to_shown(at->effect[column][k].change, of->si, of->shown);
-    const double a = sb_axis_at(&x, middle - fabs(change)),
-                 b = sb_axis_at(&x, middle + fabs(change));
+    const double a = sb_axis_at(&axes.x, middle - fabs(change)),
+                 b = sb_axis_at(&axes.x, middle + fabs(change));
     const SbParamId id = at->effect[column][k].id;
     sb_canvas_color(c, sb_theme_diverging(theme, -0.6), 1);
     cairo_rectangle(cr, a, y + 3, zero - a, high - 6);
@@ -150,11 +134,7 @@ void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
     }
     sb_canvas_text(c, share, &name, rect.x + rect.width, y + high / 2 + 4, SB_RIGHT);
   }
-  sb_canvas_pen(c, 1.6, NULL);
-  sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), 1);
-  cairo_move_to(cr, zero, plot.y);
-  cairo_line_to(cr, zero, plot.y + plot.height);
-  cairo_stroke(cr);
+  sb_canvas_line(c, (SbStroke){SB_ROLE_INK, 1.6, NULL}, zero, plot.y, zero, plot.y + plot.height);
   sb_canvas_finish(c);
 }
 
@@ -186,8 +166,9 @@ static void spread(const SbDesignPlace *at, size_t figures, size_t column, doubl
   }
 }
 
-static void draw_bins(SbCanvas *c, SbRect plot, const SbScale *x, const SbDesignPlace *at,
+static void draw_bins(SbCanvas *c, const SbAxes *axes, const SbFigure *of, const SbDesignPlace *at,
                       size_t figures, size_t column, const SbLimit *limit, SbRole role) {
+  const SbRect plot = axes->plot;
   double lo = INFINITY, hi = -INFINITY, most = 0, bins[BINS] = {0};
   spread(at, figures, column, &lo, &hi);
   sb_axis_repair(&lo, &hi);
@@ -204,7 +185,8 @@ static void draw_bins(SbCanvas *c, SbRect plot, const SbScale *x, const SbDesign
   }
   for (int k = 0; k < count && most > 0; k++) {
     const double from = lo + (hi - lo) * k / count, to = lo + (hi - lo) * (k + 1) / count;
-    const double a = sb_axis_at(x, from), b = sb_axis_at(x, to);
+    const double a = sb_axis_at(&axes->x, sb_quantity_to_shown(from, of->si, of->shown));
+    const double b = sb_axis_at(&axes->x, sb_quantity_to_shown(to, of->si, of->shown));
     const double height = plot.height * bins[k] / most;
     const double middle = (from + to) / 2;
     const bool beyond = middle < limit->low || middle > limit->high;
@@ -225,7 +207,9 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
   const SbTextStyle small = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   double lo = INFINITY, hi = -INFINITY;
   g_autofree char *label = sb_translation_inside(of->label);
-  sb_canvas_text_fit(c, label, &bold, rect.x, rect.y + 12, rect.width);
+  g_autofree char *title =
+      of->shown[0] != '\0' ? g_strdup_printf("%s / %s", label, of->shown) : g_strdup(label);
+  sb_canvas_text_fit(c, title, &bold, rect.x, rect.y + 12, rect.width);
   for (int place = 0; place < SB_DESIGN_PLACES; place++) {
     spread(&answer->place[place], figures, column, &lo, &hi);
   }
@@ -239,11 +223,10 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
   hi = isfinite(limit.high) && limit.high < hi + 2 * wide ? fmax(hi, limit.high) : hi;
   sb_axis_repair(&lo, &hi);
   const SbRect plot = {rect.x, rect.y + 52, rect.width, fmax(rect.height - 52 - 24, 10)};
-  const SbScale x = {lo - 0.03 * (hi - lo), hi + 0.03 * (hi - lo), plot.x, plot.x + plot.width,
-                     false};
-  SbTicks ticks;
-  sb_axis_ticks(&ticks, sb_quantity_to_shown(x.lo, of->si, of->shown),
-                sb_quantity_to_shown(x.hi, of->si, of->shown), 4);
+  SbAxes axes = {.card = rect};
+  sb_axes_linear(&axes, plot, sb_quantity_to_shown(lo - 0.03 * (hi - lo), of->si, of->shown),
+                 sb_quantity_to_shown(hi + 0.03 * (hi - lo), of->si, of->shown), 0, 1);
+  sb_axes_ticks(&axes, 4, 0);
   static const SbRole roles[] = {SB_ROLE_THIRD, SB_ROLE_PASS};
   double line = rect.y + 28;
   for (int place = 0; place < SB_DESIGN_PLACES; place++) {
@@ -251,7 +234,7 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
     if (at->samples == 0) {
       continue;
     }
-    draw_bins(c, plot, &x, at, figures, column, &limit, roles[place]);
+    draw_bins(c, &axes, of, at, figures, column, &limit, roles[place]);
     size_t valves = 0;
     const size_t beyond = beyond_of(at, figures, column, &limit, &valves);
     g_autofree char *value = sb_design_value_text(limit.figure, at->figure[column]);
@@ -267,25 +250,12 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
     sb_canvas_text_fit(c, text, &style, rect.x, line, rect.width);
     line += 15;
   }
-  sb_canvas_hairline(c, plot.x, plot.y + plot.height, plot.x + plot.width, plot.y + plot.height,
-                     sb_canvas_role(c, SB_ROLE_AXIS));
-  for (int k = 0; k < ticks.count; k++) {
-    char digits[SB_FORMAT_MAX];
-    sb_format_fixed(digits, ticks.value[k], ticks.decimals);
-    const double px = sb_axis_at(&x, sb_quantity_from_shown(ticks.value[k], of->si, of->shown));
-    if (px < plot.x + plot.width - 30) {
-      sb_canvas_text(c, digits, &small, px, plot.y + plot.height + 16, SB_MIDDLE);
-    }
-  }
-  sb_canvas_text(c, of->shown, &small, plot.x + plot.width, plot.y + plot.height + 16, SB_RIGHT);
+  sb_axes_draw(c, &axes, NULL);
   for (int side = 0; side < 2; side++) {
-    const double at = side == 0 ? limit.low : limit.high;
-    if (isfinite(at) && at >= x.lo && at <= x.hi) {
-      sb_canvas_pen(c, 1.6, NULL);
-      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_ERROR), 1);
-      cairo_move_to(c->cr, sb_axis_at(&x, at), plot.y);
-      cairo_line_to(c->cr, sb_axis_at(&x, at), plot.y + plot.height);
-      cairo_stroke(c->cr);
+    const double at = sb_quantity_to_shown(side == 0 ? limit.low : limit.high, of->si, of->shown);
+    if (isfinite(at) && at >= axes.x.lo && at <= axes.x.hi) {
+      sb_canvas_line(c, (SbStroke){SB_ROLE_ERROR, 1.6, NULL}, sb_axis_at(&axes.x, at), plot.y,
+                     sb_axis_at(&axes.x, at), plot.y + plot.height);
     }
   }
 }
@@ -301,9 +271,9 @@ void sb_design_scatter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   }
   g_autofree char *title =
       drawn > 0 ? g_strdup_printf(_("%zu valves"), drawn) : g_strdup(_("Valves within tolerances"));
-  draw_title(c, rect, title,
-             drawn > 0 ? _("drawn from the tolerances; green: best found, grey: present")
-                       : _("not drawn yet"));
+  sb_frame_title(c, rect, 13, title,
+                 drawn > 0 ? _("drawn from the tolerances; green: best found, grey: present")
+                           : _("not drawn yet"));
   // Those nearest to their limits, from the left.
   const SbLimits *limits = &answer->study->limits;
   const int which = shown_place(answer);

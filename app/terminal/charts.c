@@ -160,7 +160,7 @@ void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
     chart_signal(cells, rect, theme, data, flags);
     return;
   }
-  SbHysteresisLayout layout;
+  SbAxes layout;
   const SbRect ground = {0, 0, 8.0 * rect.width, 16.0 * rect.height};
   sb_hysteresis_layout(&layout, ground, data, SB_CHART_COMPACT);
   SbPlot plot;

@@ -129,7 +129,7 @@ static void test_hit(void) {
   SbChartData data;
   synthetic_data(&data, &run, 7.27);
   const SbRect rect = {10, 20, 640, 560};
-  SbHysteresisLayout at;
+  SbAxes at;
   sb_hysteresis_layout(&at, rect, &data, SB_CHART_PANEL);
   int exact = 0, tried = 0;
   for (size_t i = 40; i < run.count; i += 37, tried++) {
@@ -232,7 +232,7 @@ static void test_cursor(void) {
   g_assert_true(isnan(beyond[0]) && isnan(beyond[1]));
   // A point of the picture is the displacement that is drawn there; the title is none.
   const SbRect rect = {16, 12, 400, 300};
-  SbHysteresisLayout at;
+  SbAxes at;
   sb_hysteresis_layout(&at, rect, &data, SB_CHART_COMPACT);
   double s = 0;
   g_assert_true(sb_hysteresis_cursor(&s, rect, &data, SB_CHART_COMPACT, sb_axis_at(&at.x, 2),
@@ -241,7 +241,7 @@ static void test_cursor(void) {
   g_assert_false(sb_hysteresis_cursor(&s, rect, &data, SB_CHART_COMPACT, at.plot.x + 20, 15));
   // Enlarged about a point that stays where it is, twice, and back to all of it; never beyond.
   SbChartZoom zoom;
-  SbHysteresisLayout near;
+  SbAxes near;
   const double x = sb_axis_at(&at.x, 2), y = sb_axis_at(&at.y, 20);
   g_assert_false(sb_hysteresis_zoom(&zoom, rect, &data, SB_CHART_COMPACT, 1, x, y));
   for (int i = 0; i < 2; i++) {

@@ -412,7 +412,7 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, View *view) {
     return GDK_EVENT_PROPAGATE;
   }
   const SbChartData data = data_of(view);
-  SbHysteresisLayout at;
+  SbAxes at;
   sb_hysteresis_layout(&at, whole(widget), &data, SB_CHART_COMPACT);
   zoom_at(view,
           all  ? 0
@@ -445,7 +445,7 @@ static gboolean on_release(GtkWidget *widget, GdkEventButton *event, View *view)
   if (view->hand == HAND_BOXES && fabs(view->x - view->press_x) >= LEAST &&
       fabs(view->y - view->press_y) >= LEAST && may_zoom(view)) {
     const SbChartData data = data_of(view);
-    SbHysteresisLayout at;
+    SbAxes at;
     sb_hysteresis_layout(&at, whole(widget), &data, SB_CHART_COMPACT);
     view->zoom = (SbChartZoom){sb_axis_value(&at.x, fmin(view->x, view->press_x)),
                                sb_axis_value(&at.x, fmax(view->x, view->press_x)),
@@ -465,7 +465,7 @@ static void move(View *view, double dx, double dy) {
     return;
   }
   const SbChartData data = data_of(view);
-  SbHysteresisLayout at;
+  SbAxes at;
   sb_hysteresis_layout(&at, whole(view->area), &data, SB_CHART_COMPACT);
   const double x = sb_axis_value(&at.x, 0) - sb_axis_value(&at.x, dx);
   const double y = sb_axis_value(&at.y, 0) - sb_axis_value(&at.y, dy);

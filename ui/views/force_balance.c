@@ -49,9 +49,7 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   }
   SbCanvas canvas;
   sb_canvas_init(&canvas, cr, theme);
-  cairo_save(cr);
-  cairo_rectangle(cr, rect.x, rect.y - 1, rect.width, rect.height + 1);
-  cairo_clip(cr);
+  sb_canvas_clip(&canvas, (SbRect){rect.x, rect.y - 1, rect.width, rect.height + 1});
   sb_canvas_hairline(&canvas, rect.x, rect.y, rect.x + rect.width, rect.y,
                      theme->role[SB_ROLE_HAIRLINE]);
   SbTextStyle bold = sb_canvas_style(&canvas, 12, 700, SB_ROLE_INK);

@@ -63,9 +63,7 @@ static gboolean draw_sample(GtkWidget *area, cairo_t *cr, gpointer data) {
   const double y = floor(gtk_widget_get_allocated_height(area) / 2.0) + 0.5;
   SbCanvas canvas;
   sb_canvas_init(&canvas, cr, sb_theme(sb_style_is_dark()));
-  sb_canvas_pen(&canvas, 2, sb_chart_pin_dash(slot));
-  sb_canvas_color(&canvas, sb_canvas_role(&canvas, sb_chart_pin_role(slot)), 1);
-  sb_canvas_polyline(&canvas, (SbPoint[]){{0, y}, {SAMPLE, y}}, 2);
+  sb_canvas_curve(&canvas, sb_chart_pin_stroke(slot), (SbPoint[]){{0, y}, {SAMPLE, y}}, 2);
   sb_canvas_finish(&canvas);
   return GDK_EVENT_PROPAGATE;
 }

@@ -210,8 +210,7 @@ static void draw_pins(const SbSectionHandles *handles, SbCanvas *c) {
     const SbModel *model = pin->run->model;
     const double lower = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE) -
                          sb_model_value(data->run.model, SB_P_GLAND_RADIAL_SPACE);
-    sb_canvas_pen(c, SB_LINE_PINNED, sb_chart_pin_dash(pin->look));
-    sb_canvas_color(c, sb_canvas_role(c, sb_chart_pin_role(pin->look)), 1);
+    sb_canvas_stroke(c, sb_chart_pin_stroke(pin->look));
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
       draw_free_ring(handles, c, seal, section_of(model, seal), lower);
     }
