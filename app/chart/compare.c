@@ -147,6 +147,85 @@ static const char *percent_text(char *out, const Row *row, double value) {
   return out;
 }
 
+// Columns of the table: the live run's ends at `live`, each further one is `each` and a gap wider.
+typedef struct {
+  double live, each, gap;
+  bool percent; // there is room for percentages
+} Columns;
+
+static Columns columns_of(SbRect rect, const SbChartData *data) {
+  const double pins = (double)data->pin_count, measured = data->measured != NULL;
+  const double least = LABEL + VALUE + pins * (VALUE + CHANGE) + measured * VALUE;
+  Columns of = {.percent = rect.width >= least + pins * PERCENT};
+  of.each = VALUE + CHANGE + (of.percent ? PERCENT : 0);
+  // The remaining room is divided between the columns.
+  of.gap = fmax(rect.width - least - (of.percent ? pins * PERCENT : 0), 0) / (1 + pins + measured);
+  of.live = rect.x + LABEL + VALUE + of.gap;
+  return of;
+}
+
+static void draw_head(SbCanvas *c, SbRect rect, const SbChartData *data, const Columns *of) {
+  const double y = rect.y + 14;
+  sb_legend_line(c, of->live, y, VALUE + of->gap, (SbStroke){SB_ROLE_INK, SB_LINE_ACTIVE, NULL},
+                 _("live"));
+  for (size_t i = 0; i < data->pin_count; i++) {
+    const SbChartPin *pin = &data->pin[i];
+    sb_legend_line(c, of->live + (double)(i + 1) * (of->each + of->gap), y, of->each + of->gap - 8,
+                   sb_chart_pin_stroke(pin->look), pin->name);
+  }
+  if (data->measured != NULL) {
+    const SbTextStyle dots = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
+    sb_canvas_text(c, _("measured"), &dots, rect.x + rect.width, y, SB_RIGHT);
+  }
+}
+
+// The value of a column, and its difference from the live one's.
+static void draw_value(SbCanvas *c, const Row *row, const Columns *of, size_t column, double base) {
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, column == 0 ? 700 : 400, SB_ROLE_INK);
+  const SbTextStyle second = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  const SbTextStyle stuck = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_ERROR);
+  const double right = of->live + (double)column * (of->each + of->gap), value = row->value[column];
+  const double at = column == 0 ? right : right - of->each + VALUE;
+  char text[SB_FORMAT_MAX];
+  if (row->stuck[column]) {
+    sb_canvas_text(c, _("does not return"), &stuck, right, base, SB_RIGHT);
+    return;
+  }
+  sb_canvas_text(c, value_text(text, row, value), &style, at, base, SB_RIGHT);
+  if (column > 0) {
+    sb_canvas_text(c, change_text(text, row, value), &second, at + CHANGE, base, SB_RIGHT);
+  }
+  if (column > 0 && of->percent) {
+    sb_canvas_text(c, percent_text(text, row, value), &second, right, base, SB_RIGHT);
+  }
+}
+
+static void draw_row(SbCanvas *c, SbRect rect, const SbChartData *data, const Columns *of,
+                     size_t index) {
+  const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  const SbTextStyle unit = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_THIRD);
+  const SbTextStyle dots = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
+  const double base = rect.y + 14;
+  char text[SB_FORMAT_MAX];
+  Row row;
+  make(&row, data, index);
+  if (index < AT_PLAYHEAD) {
+    sb_canvas_fill(c, (SbRect){rect.x - 4, rect.y, rect.width + 8, ROW}, SB_ROLE_GRID, 1);
+  } else {
+    sb_canvas_hairline(c, rect.x, rect.y, rect.x + rect.width, rect.y,
+                       sb_canvas_role(c, SB_ROLE_GRID));
+  }
+  const double used = sb_canvas_text(c, row.label, &name, rect.x, base, SB_LEFT);
+  sb_canvas_text(c, row.unit, &unit, rect.x + used + 5, base, SB_LEFT);
+  for (size_t i = 0; i <= data->pin_count; i++) {
+    draw_value(c, &row, of, i, base);
+  }
+  if (data->measured != NULL && isfinite(row.measured)) {
+    sb_canvas_text(c, value_text(text, &row, row.measured), &dots, rect.x + rect.width, base,
+                   SB_RIGHT);
+  }
+}
+
 void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                      unsigned flags) {
   SbCanvas canvas, *c = &canvas;
@@ -156,65 +235,11 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
     rect = (SbRect){rect.x + SB_GRID_PADDING, rect.y + 12, rect.width - 2 * SB_GRID_PADDING,
                     rect.height - 24};
   }
-  const bool measured = data->measured != NULL;
-  const double pins = (double)data->pin_count;
-  const double least = LABEL + VALUE + pins * (VALUE + CHANGE) + measured * VALUE;
-  const bool percent = rect.width >= least + pins * PERCENT;
-  const double each = VALUE + CHANGE + (percent ? PERCENT : 0);
-  // What room is left goes between the columns.
-  const double spare = fmax(rect.width - least - (percent ? pins * PERCENT : 0), 0);
-  const double gap = spare / (1 + pins + measured);
-  const double live = rect.x + LABEL + VALUE + gap;
-  const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
-  const SbTextStyle unit = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_THIRD);
-  const SbTextStyle second = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
-  const SbTextStyle stuck = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_ERROR);
-  const SbTextStyle dots = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
-  double y = rect.y + 14;
-  sb_legend_line(c, live, y, VALUE + gap, (SbStroke){SB_ROLE_INK, SB_LINE_ACTIVE, NULL}, _("live"));
-  for (size_t i = 0; i < data->pin_count; i++) {
-    const SbChartPin *pin = &data->pin[i];
-    const double right = live + (double)(i + 1) * (each + gap);
-    sb_legend_line(c, right, y, each + gap - 8, sb_chart_pin_stroke(pin->look), pin->name);
-  }
-  if (measured) {
-    sb_canvas_text(c, _("measured"), &dots, rect.x + rect.width, y, SB_RIGHT);
-  }
-  y = rect.y + HEAD;
+  const Columns of = columns_of(rect, data);
+  draw_head(c, rect, data, &of);
+  double y = rect.y + HEAD;
   for (size_t k = 0; k < ROWS && y + ROW <= rect.y + rect.height + 0.5; k++, y += ROW) {
-    Row row;
-    char text[SB_FORMAT_MAX];
-    make(&row, data, k);
-    if (k < AT_PLAYHEAD) {
-      sb_canvas_fill(c, (SbRect){rect.x - 4, y, rect.width + 8, ROW}, SB_ROLE_GRID, 1);
-    } else {
-      sb_canvas_hairline(c, rect.x, y, rect.x + rect.width, y, sb_canvas_role(c, SB_ROLE_GRID));
-    }
-    const double base = y + 14;
-    const double used = sb_canvas_text(c, row.label, &name, rect.x, base, SB_LEFT);
-    sb_canvas_text(c, row.unit, &unit, rect.x + used + 5, base, SB_LEFT);
-    for (size_t i = 0; i <= data->pin_count; i++) {
-      const double right = live + (double)i * (each + gap);
-      const double at = i == 0 ? right : right - CHANGE - (percent ? PERCENT : 0);
-      if (row.stuck[i]) {
-        sb_canvas_text(c, _("does not return"), &stuck, right, base, SB_RIGHT);
-        continue;
-      }
-      sb_canvas_text(c, value_text(text, &row, row.value[i]), i == 0 ? &bold : &name, at, base,
-                     SB_RIGHT);
-      if (i > 0) {
-        sb_canvas_text(c, change_text(text, &row, row.value[i]), &second, at + CHANGE, base,
-                       SB_RIGHT);
-      }
-      if (i > 0 && percent) {
-        sb_canvas_text(c, percent_text(text, &row, row.value[i]), &second, right, base, SB_RIGHT);
-      }
-    }
-    if (measured && isfinite(row.measured)) {
-      sb_canvas_text(c, value_text(text, &row, row.measured), &dots, rect.x + rect.width, base,
-                     SB_RIGHT);
-    }
+    draw_row(c, (SbRect){rect.x, y, rect.width, ROW}, data, &of, k);
   }
   sb_canvas_finish(c);
 }

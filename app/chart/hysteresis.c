@@ -27,33 +27,39 @@ static void include_run(const SbChartRun *run, double *x1, double *y0, double *y
   *y1 = fmax(*y1, r.force_max);
 }
 
-void sb_hysteresis_layout(SbAxes *out, SbRect rect, const SbChartData *data, unsigned flags) {
-  bool compact = flags & SB_CHART_COMPACT;
-  SbRect in = sb_frame_inner(rect, flags & SB_CHART_PANEL);
-  *out = (SbAxes){.x_name = _("stem displacement / mm")};
-
-  // Ranges hold for the whole cycle from the first frame on, so that a growing loop does not jump.
+// Ranges of the full cycle from the first frame on, so that a growing loop does not jump:
+// displacements up to *x1 [mm], forces from *y0 to *y1 [N].
+static void range_of(const SbChartData *data, double *x1, double *y0, double *y1) {
   const SbModel *model = data->run.model;
-  double x1 = model ? sb_model_value(model, SB_P_DRIVE_STROKE) * 1e3 : 1, y0 = 0;
-  double y1 = model ? fmax(sb_model_value(model, SB_P_DRIVE_REVERSAL_FORCE),
-                           1.2 * sb_model_pressure_force(model))
-                    : 10;
-  include_run(&data->run, &x1, &y0, &y1);
+  *x1 = model ? sb_model_value(model, SB_P_DRIVE_STROKE) * 1e3 : 1;
+  *y0 = 0;
+  *y1 = model ? fmax(sb_model_value(model, SB_P_DRIVE_REVERSAL_FORCE),
+                     1.2 * sb_model_pressure_force(model))
+              : 10;
+  include_run(&data->run, x1, y0, y1);
   for (size_t i = 0; i < data->pin_count; i++) {
-    include_run(data->pin[i].run, &x1, &y0, &y1);
+    include_run(data->pin[i].run, x1, y0, y1);
   }
   const SbChartCurve *loop = data->predicted != NULL ? &data->predicted->loop : NULL;
   for (size_t i = 0; loop != NULL && i < loop->count; i++) {
-    x1 = fmax(x1, 1e3 * loop->displacement[i]);
-    y0 = fmin(y0, loop->force[i]);
-    y1 = fmax(y1, loop->force[i]);
+    *x1 = fmax(*x1, 1e3 * loop->displacement[i]);
+    *y0 = fmin(*y0, loop->force[i]);
+    *y1 = fmax(*y1, loop->force[i]);
   }
   if (data->measured != NULL) {
-    sb_hysteresis_measured_range(data->measured, &x1, &y0, &y1);
+    sb_hysteresis_measured_range(data->measured, x1, y0, y1);
   }
   if (data->run.state == SB_CHART_RUNNING) {
-    include_run(data->earlier, &x1, &y0, &y1);
+    include_run(data->earlier, x1, y0, y1);
   }
+}
+
+void sb_hysteresis_layout(SbAxes *out, SbRect rect, const SbChartData *data, unsigned flags) {
+  const bool compact = flags & SB_CHART_COMPACT;
+  const SbRect in = sb_frame_inner(rect, flags & SB_CHART_PANEL);
+  double x1, y0, y1;
+  *out = (SbAxes){.x_name = _("stem displacement / mm")};
+  range_of(data, &x1, &y0, &y1);
   if (y0 > -1e-3) {
     y0 = 0; // rounding noise below zero is no reason for a negative axis
   }
@@ -199,19 +205,15 @@ static void draw_other(SbHysteresisView *v, const SbChartRun *run, const SbChart
   g_free(p);
 }
 
-// The loop that is predicted of the present values, over the paler one of the former: dashed.
-static void draw_predicted(SbHysteresisView *v, SbRect rect) {
+// The predicted loop of the present values, dashed, over the paler one of the former values.
+static void draw_predicted(SbHysteresisView *v) {
   const SbChartCurve *curve = &v->data->predicted->loop;
-  SbCanvas *c = &v->canvas;
-  const size_t n = curve->count;
-  g_autofree SbPoint *p = g_new(SbPoint, n);
-  for (size_t i = 0; i < n; i++) {
+  g_autofree SbPoint *p = g_new(SbPoint, curve->count);
+  for (size_t i = 0; i < curve->count; i++) {
     p[i] = sb_hysteresis_pixel(&v->at, curve->displacement[i], curve->force[i]);
   }
-  sb_canvas_curve(c, (SbStroke){SB_ROLE_INK, SB_LINE_SEAL, &sb_dash_predicted}, p, n);
-  // Named on the line of the axis' name, where nothing else stands.
-  const SbRect in = sb_frame_inner(rect, v->flags & SB_CHART_PANEL);
-  sb_legend_predicted(c, in.x + in.width, in.y + (v->flags & SB_CHART_COMPACT ? 34 : 64));
+  sb_canvas_curve(&v->canvas, (SbStroke){SB_ROLE_INK, SB_LINE_SEAL, &sb_dash_predicted}, p,
+                  curve->count);
 }
 
 // The run itself: interior, future, played part.
@@ -224,7 +226,6 @@ static void draw_loop(SbHysteresisView *v) {
   if (!all) {
     return;
   }
-  SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
   if (sb_chart_complete(v->data)) {
     sb_canvas_area(c, all, n, SB_ROLE_INK, c->theme->loop_fill);
   }
@@ -238,7 +239,7 @@ static void draw_loop(SbHysteresisView *v) {
   g_autofree SbPoint *rest = trace_pixels(&v->at, run, now, run->count - 1, &future);
   if (rest && future > 1) {
     sb_canvas_pen(c, SB_LINE_FUTURE, NULL);
-    sb_canvas_color(c, ink, SB_OPACITY_FUTURE);
+    sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_INK), SB_OPACITY_FUTURE);
     sb_canvas_polyline(c, rest, future);
   }
   size_t played;
@@ -325,33 +326,62 @@ static void draw_empty(SbHysteresisView *v) {
                       v->at.plot.y + 0.5 * v->at.plot.height, SB_MIDDLE);
 }
 
+// The pressure force, which the loop straddles.
+static void draw_pressure_force(SbHysteresisView *v) {
+  const SbModel *model = v->data->run.model;
+  const double force = model ? sb_model_pressure_force(model) : 0;
+  if (!(force > 0 && force >= v->at.y.lo && force <= v->at.y.hi)) {
+    return;
+  }
+  const SbRect plot = v->at.plot;
+  const double y = floor(sb_axis_at(&v->at.y, force)) + 0.5;
+  const double left = fmax(sb_axis_at(&v->at.x, 0), plot.x), right = plot.x + plot.width;
+  sb_canvas_line(&v->canvas, (SbStroke){SB_ROLE_FLUID, 1.2, &sb_dash_reference}, left, y, right, y);
+  sb_labels_avoid(v->labels, (SbPoint[]){{left, y}, {right, y}}, 2, 1);
+}
+
+static void draw_content(SbHysteresisView *v, SbRect in) {
+  const SbChartData *data = v->data;
+  const SbFrame *now = v->flags & SB_CHART_WHOLE ? NULL : sb_chart_frame(data);
+  if (drawable(&data->run) == 0) {
+    draw_empty(v);
+    return;
+  }
+  if (now) {
+    sb_hysteresis_now(v, true);
+  }
+  draw_loop(v);
+  if (data->measured != NULL) {
+    sb_hysteresis_measured(v, in);
+  }
+  draw_arrows(v);
+  if (now) {
+    sb_hysteresis_label_now(v);
+  }
+  sb_hysteresis_marks(v);
+  if (now) {
+    sb_hysteresis_now(v, false);
+  }
+  sb_hysteresis_notes(v);
+}
+
 void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                         unsigned flags) {
   SbHysteresisView v = {.data = data, .flags = flags};
   SbCanvas *c = &v.canvas;
   sb_canvas_init(c, cr, theme);
   sb_hysteresis_layout(&v.at, rect, data, flags);
-  const SbRect in = sb_frame_begin(c, rect, flags & SB_CHART_PANEL);
+  const SbRect in = sb_frame_begin(c, rect, flags & SB_CHART_PANEL), plot = v.at.plot;
   char several[96];
-  sb_frame_head(c, in, flags & SB_CHART_COMPACT, _("Force and displacement"),
-                note_of(data, flags, several, sizeof several), _("force on the stem / N"));
+  const double head =
+      sb_frame_head(c, in, flags & SB_CHART_COMPACT, _("Force and displacement"),
+                    note_of(data, flags, several, sizeof several), _("force on the stem / N"));
   v.labels = g_new(SbLabels, 1);
   // Labels may use the whole panel below its title, but stay above the axis.
-  SbRect plot = v.at.plot;
   sb_labels_init(v.labels, (SbRect){plot.x - 8, plot.y - 14, plot.width + 8 + LABEL_ROOM_OUTSIDE,
                                     plot.height + 14});
   sb_axes_draw(c, &v.at, v.labels);
-
-  // The pressure force, which the loop straddles.
-  const SbModel *model = data->run.model;
-  if (model && sb_model_pressure_force(model) > 0 && sb_model_pressure_force(model) >= v.at.y.lo &&
-      sb_model_pressure_force(model) <= v.at.y.hi) {
-    double y = floor(sb_axis_at(&v.at.y, sb_model_pressure_force(model))) + 0.5;
-    SbPoint line[2] = {{fmax(sb_axis_at(&v.at.x, 0), plot.x), y}, {plot.x + plot.width, y}};
-    sb_canvas_line(c, (SbStroke){SB_ROLE_FLUID, 1.2, &sb_dash_reference}, line[0].x, line[0].y,
-                   line[1].x, line[1].y);
-    sb_labels_avoid(v.labels, line, 2, 1);
-  }
+  draw_pressure_force(&v);
   // An enlarged part ends with the plot, where no strip of differences lies below.
   cairo_save(cr);
   if (data->zoom != NULL) {
@@ -362,39 +392,18 @@ void sb_hysteresis_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const Sb
   if (data->run.state == SB_CHART_RUNNING) {
     draw_other(&v, data->earlier, NULL);
   }
-  double zero = sb_axis_at(&v.at.y, 0);
-  SbPoint axis[2] = {{plot.x, zero}, {plot.x + plot.width, zero}};
-  sb_labels_avoid(v.labels, axis, 2, 0.3);
-  const SbFrame *now = sb_chart_frame(data);
-  size_t traced = data->run.trace ? sb_trace_frames(data->run.trace) : 0;
+  const double zero = sb_axis_at(&v.at.y, 0);
+  sb_labels_avoid(v.labels, (SbPoint[]){{plot.x, zero}, {plot.x + plot.width, zero}}, 2, 0.3);
   if (data->predicted != NULL) {
     cairo_push_group(cr);
   }
-  if (data->run.count > 0 && traced > 0) {
-    bool whole = !now || flags & SB_CHART_WHOLE;
-    if (!whole) {
-      sb_hysteresis_now(&v, true);
-    }
-    draw_loop(&v);
-    if (data->measured != NULL) {
-      sb_hysteresis_measured(&v, sb_frame_inner(rect, flags & SB_CHART_PANEL));
-    }
-    draw_arrows(&v);
-    if (!whole) {
-      sb_hysteresis_label_now(&v);
-    }
-    sb_hysteresis_marks(&v);
-    if (!whole) {
-      sb_hysteresis_now(&v, false);
-    }
-    sb_hysteresis_notes(&v);
-  } else {
-    draw_empty(&v);
-  }
+  draw_content(&v, in);
   if (data->predicted != NULL) {
     cairo_pop_group_to_source(cr);
     cairo_paint_with_alpha(cr, SB_OPACITY_EARLIER);
-    draw_predicted(&v, rect);
+    draw_predicted(&v);
+    // Named on the line of the axis' name, where nothing else is.
+    sb_legend_predicted(c, in.x + in.width, head);
   }
   cairo_restore(cr);
   g_free(v.labels);

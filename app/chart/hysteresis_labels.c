@@ -13,8 +13,8 @@
 enum { LETTER_GAP = 12 }; // beside a stage's letter [px]
 
 // A letter in bold and its value, as one label.
-static void draw_mark(SbHysteresisView *v, int stage, SbPoint at, const char *value,
-                      const SbPlace *place, int count) {
+static void draw_mark(SbHysteresisView *v, int stage, const char *value, const SbPlace *place,
+                      int count) {
   SbCanvas *c = &v->canvas;
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
   SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
@@ -44,65 +44,60 @@ static void draw_mark(SbHysteresisView *v, int stage, SbPoint at, const char *va
   }
 }
 
+// Positions of a stage's letter and value from its dot, the best first.
+static int mark_places(SbPlace *out, int stage, SbPoint p) {
+  enum { PLACES = 6 };
+  static const SbPlace above = {0, -13, SB_LEFT}, over = {0, -12, SB_MIDDLE};
+  static const SbPlace higher = {0, -30, SB_LEFT}, corner = {-11, -8, SB_RIGHT};
+  static const SbPlace right = {11, 4, SB_LEFT}, left = {-12, 4, SB_RIGHT};
+  static const SbPlace up_right = {8, -12, SB_LEFT}, up_left = {-8, -9, SB_RIGHT};
+  static const SbPlace below = {0, 20, SB_MIDDLE}, down_right = {8, 19, SB_LEFT};
+  static const SbPlace down_left = {-8, 19, SB_RIGHT};
+  static const SbPlace *const offers[SB_STAGE_COUNT][PLACES] = {
+      [SB_STAGE_A] = {&corner, &left, &up_right, &above},
+      [SB_STAGE_B] = {&above, &up_right, &higher, &right, &up_left, &down_right},
+      [SB_STAGE_C] = {&up_right, &right, &over, &higher, &up_left, &down_right},
+      [SB_STAGE_D] = {&right, &up_right, &down_right, &up_left, &down_left},
+      [SB_STAGE_E] = {&right, &up_right, &down_right, &up_left, &down_left},
+      [SB_STAGE_F] = {&over, &up_right, &up_left, &below, &down_left, &right}};
+  int count = 0;
+  for (; count < PLACES && offers[stage][count] != NULL; count++) {
+    const SbPlace *offer = offers[stage][count];
+    out[count] = (SbPlace){p.x + offer->x, p.y + offer->y, offer->align};
+  }
+  return count;
+}
+
 void sb_hysteresis_marks(SbHysteresisView *v) {
   const SbChartRun *run = &v->data->run;
   SbCanvas *c = &v->canvas;
   const SbStageMark *mark = sb_trace_marks(run->trace);
-  SbColor ink = sb_canvas_role(c, SB_ROLE_INK);
+  SbPoint at[SB_STAGE_COUNT];
+  bool there[SB_STAGE_COUNT];
   // All dots first: labels keep off every one of them.
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
-    if (mark[s].reached && sb_axes_inside(&v->at, p.x, p.y, 0)) {
-      sb_canvas_ringed_dot(c, p.x, p.y, ink);
-      sb_labels_block(v->labels, (SbRect){p.x - 5, p.y - 5, 10, 10});
+    at[s] = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
+    there[s] = mark[s].reached && sb_axes_inside(&v->at, at[s].x, at[s].y, 0);
+    if (there[s]) {
+      sb_canvas_ringed_dot(c, at[s].x, at[s].y, sb_canvas_role(c, SB_ROLE_INK));
+      sb_labels_block(v->labels, (SbRect){at[s].x - 5, at[s].y - 5, 10, 10});
     }
   }
   char shown[SB_FORMAT_MAX] = "";
   const int first = v->labels->box_count;
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    if (!mark[s].reached) {
+    if (!there[s]) {
       continue;
     }
-    SbPoint p = sb_hysteresis_pixel(&v->at, mark[s].displacement, mark[s].force);
-    if (!sb_axes_inside(&v->at, p.x, p.y, 0)) {
-      continue;
-    }
+    SbPlace place[6];
     char value[SB_FORMAT_MAX] = "";
     sb_chart_stage_force(value, run, (SbStage)s, mark[s].force);
-    // F stands on the line that E has just labelled; A is the origin.
-    bool again = s == SB_STAGE_F && strcmp(value, shown) == 0;
+    // F is on the line that E has just labelled; A is the origin.
+    const bool again = s == SB_STAGE_F && strcmp(value, shown) == 0;
     g_strlcpy(shown, value, sizeof shown);
-    if (again || s == SB_STAGE_A) {
-      value[0] = 0;
-    }
-    const SbPlace above = {p.x, p.y - 13, SB_LEFT}, over = {p.x, p.y - 12, SB_MIDDLE};
-    const SbPlace higher = {p.x, p.y - 30, SB_LEFT};
-    const SbPlace right = {p.x + 11, p.y + 4, SB_LEFT}, left = {p.x - 12, p.y + 4, SB_RIGHT};
-    const SbPlace up_right = {p.x + 8, p.y - 12, SB_LEFT}, up_left = {p.x - 8, p.y - 9, SB_RIGHT};
-    const SbPlace below = {p.x, p.y + 20, SB_MIDDLE}, down_right = {p.x + 8, p.y + 19, SB_LEFT};
-    const SbPlace down_left = {p.x - 8, p.y + 19, SB_RIGHT};
-    switch (s) {
-    case SB_STAGE_A:
-      draw_mark(v, s, p, value, (SbPlace[]){{p.x - 11, p.y - 8, SB_RIGHT}, left, up_right, above},
-                4);
-      break;
-    case SB_STAGE_B:
-      draw_mark(v, s, p, value, (SbPlace[]){above, up_right, higher, right, up_left, down_right},
-                6);
-      break;
-    case SB_STAGE_C:
-      draw_mark(v, s, p, value, (SbPlace[]){up_right, right, over, higher, up_left, down_right}, 6);
-      break;
-    case SB_STAGE_D:
-    case SB_STAGE_E:
-      draw_mark(v, s, p, value, (SbPlace[]){right, up_right, down_right, up_left, down_left}, 5);
-      break;
-    default:
-      draw_mark(v, s, p, value, (SbPlace[]){over, up_right, up_left, below, down_left, right}, 6);
-      break;
-    }
+    draw_mark(v, s, again || s == SB_STAGE_A ? "" : value, place, mark_places(place, s, at[s]));
   }
-  // What is said of the lines stays clear of the letters, or it would read on into them.
+  // Labels of lines stay clear of the letters, or they would be read as one text.
   sb_labels_widen(v->labels, first, LETTER_GAP);
 }
 
@@ -187,73 +182,81 @@ static void label_pin(SbHysteresisView *v, const SbChartPin *pin, double right) 
               5);
 }
 
-void sb_hysteresis_notes(SbHysteresisView *v) {
-  const SbChartRun *run = &v->data->run;
-  char value[SB_FORMAT_MAX], text[128];
-  SbPoint p;
-  const SbStageMark *mark = sb_trace_marks(run->trace);
-  double left = v->at.plot.x, right = left + v->at.plot.width;
+// The end of the stroke.
+static void note_stop(SbHysteresisView *v) {
+  const SbStageMark *mark = sb_trace_marks(v->data->run.trace);
   if (mark[SB_STAGE_D].reached) {
-    p = sb_hysteresis_pixel(&v->at, mark[SB_STAGE_D].displacement, v->at.y.hi);
+    const SbPoint p = sb_hysteresis_pixel(&v->at, mark[SB_STAGE_D].displacement, v->at.y.hi);
     label_curve(v, C_("label", "stop"), SB_ROLE_SECOND,
                 (SbPlace[]){{p.x - 8, p.y + 5, SB_RIGHT}, {p.x + 8, p.y + 5, SB_LEFT}}, 2);
   }
-  double reference = run->model ? sb_model_pressure_force(run->model) : 0;
-  if (reference > 0) {
-    double y = sb_axis_at(&v->at.y, reference);
-    sb_figure_text(value, sb_figure_find("cycle.pressure_force_N"), reference, 0);
-    g_snprintf(text, sizeof text, _("pressure force %s"), value);
-    double zero = sb_axis_at(&v->at.x, 0), end = sb_axis_at(&v->at.x, v->at.x.hi);
-    double stroke = run->model
-                        ? sb_axis_at(&v->at.x, sb_model_value(run->model, SB_P_DRIVE_STROKE) * 1e3)
-                        : end;
-    label_curve(v, text, SB_ROLE_FLUID,
-                (SbPlace[]){{stroke - 8, y - 7, SB_RIGHT},
-                            {zero + 10, y - 7, SB_LEFT},
-                            {stroke - 8, y + 16, SB_RIGHT},
-                            {0.5 * (zero + stroke), y - 7, SB_MIDDLE},
-                            {zero + 10, y + 16, SB_LEFT}},
-                5);
-  }
-  const SbSummary *sum = run->summary;
-  // Beyond the line of *now*, for labels that it would cross.
+}
+
+static void note_pressure_force(SbHysteresisView *v, double force) {
+  const SbModel *model = v->data->run.model;
+  char value[SB_FORMAT_MAX], text[128];
+  const double y = sb_axis_at(&v->at.y, force), zero = sb_axis_at(&v->at.x, 0);
+  const double stroke = sb_axis_at(&v->at.x, sb_model_value(model, SB_P_DRIVE_STROKE) * 1e3);
+  sb_figure_text(value, sb_figure_find("cycle.pressure_force_N"), force, 0);
+  g_snprintf(text, sizeof text, _("pressure force %s"), value);
+  label_curve(v, text, SB_ROLE_FLUID,
+              (SbPlace[]){{stroke - 8, y - 7, SB_RIGHT},
+                          {zero + 10, y - 7, SB_LEFT},
+                          {stroke - 8, y + 16, SB_RIGHT},
+                          {0.5 * (zero + stroke), y - 7, SB_MIDDLE},
+                          {zero + 10, y + 16, SB_LEFT}},
+              5);
+}
+
+// Loss and minimum return force of a complete run: to the right of zero, or beyond the line of
+// *now*.
+static void note_figures(SbHysteresisView *v, double pressure_force) {
+  const SbSummary *sum = v->data->run.summary;
+  const SbModel *model = v->data->run.model;
   const SbFrame *frame = v->flags & SB_CHART_WHOLE ? NULL : sb_chart_frame(v->data);
-  double beyond =
-      frame ? sb_hysteresis_pixel(&v->at, frame->displacement, frame->force).x + 12 : left;
-  if (sum && sb_chart_complete(v->data)) {
-    double zero = sb_axis_at(&v->at.x, 0);
-    if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
-      sb_format_figure(value, sum, sb_figure_find("cycle.energy_loss_J"));
-      int cycles = run->model ? sb_model_number(run->model, SB_P_DRIVE_CYCLES) : 1;
-      if (cycles > 1) {
-        g_snprintf(text, sizeof text,
-                   ngettext("loss of %d cycle %s", "loss of %d cycles %s", (unsigned long)cycles),
-                   cycles, value);
-      } else {
-        g_snprintf(text, sizeof text, _("loss per cycle %s"), value);
-      }
-      double y = sb_axis_at(&v->at.y, reference > 0 ? reference : 0.5 * v->at.y.hi);
-      label_curve(v, text, SB_ROLE_SECOND,
-                  (SbPlace[]){{zero + 12, y + 18, SB_LEFT},
-                              {zero + 12, y + 36, SB_LEFT},
-                              {zero + 12, y - 10, SB_LEFT},
-                              {zero + 12, y - 28, SB_LEFT},
-                              {beyond, y + 18, SB_LEFT},
-                              {beyond, y - 10, SB_LEFT}},
-                  6);
+  const double beyond =
+      frame ? sb_hysteresis_pixel(&v->at, frame->displacement, frame->force).x + 12 : v->at.plot.x;
+  const double left = sb_axis_at(&v->at.x, 0) + 12;
+  char value[SB_FORMAT_MAX], text[128];
+  if (isfinite(sum->energy.loop) && sum->energy.loop > 0) {
+    const int cycles = model ? sb_model_number(model, SB_P_DRIVE_CYCLES) : 1;
+    const double y = sb_axis_at(&v->at.y, pressure_force > 0 ? pressure_force : 0.5 * v->at.y.hi);
+    sb_format_figure(value, sum, sb_figure_find("cycle.energy_loss_J"));
+    if (cycles > 1) {
+      g_snprintf(text, sizeof text,
+                 ngettext("loss of %d cycle %s", "loss of %d cycles %s", (unsigned long)cycles),
+                 cycles, value);
+    } else {
+      g_snprintf(text, sizeof text, _("loss per cycle %s"), value);
     }
-    if (isfinite(sum->force_return_min)) {
-      sb_format_figure(value, sum, sb_figure_find("cycle.force_return_min_N"));
-      g_snprintf(text, sizeof text, _("least return %s"), value);
-      double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
-      label_curve(v, text, SB_ROLE_INK,
-                  (SbPlace[]){{zero + 12, y - 9, SB_LEFT},
-                              {zero + 12, y - 26, SB_LEFT},
-                              {beyond, y - 9, SB_LEFT},
-                              {zero + 12, y + 18, SB_LEFT}},
-                  4);
-    }
+    label_curve(v, text, SB_ROLE_SECOND,
+                (SbPlace[]){{left, y + 18, SB_LEFT},
+                            {left, y + 36, SB_LEFT},
+                            {left, y - 10, SB_LEFT},
+                            {left, y - 28, SB_LEFT},
+                            {beyond, y + 18, SB_LEFT},
+                            {beyond, y - 10, SB_LEFT}},
+                6);
   }
+  if (isfinite(sum->force_return_min)) {
+    const double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
+    sb_format_figure(value, sum, sb_figure_find("cycle.force_return_min_N"));
+    g_snprintf(text, sizeof text, _("least return %s"), value);
+    label_curve(v, text, SB_ROLE_INK,
+                (SbPlace[]){{left, y - 9, SB_LEFT},
+                            {left, y - 26, SB_LEFT},
+                            {beyond, y - 9, SB_LEFT},
+                            {left, y + 18, SB_LEFT}},
+                4);
+  }
+}
+
+// Directions, the second of two loops next to its own in-stroke (more than two are too many to
+// name), pinned runs.
+static void note_curves(SbHysteresisView *v) {
+  const SbChartRun *run = &v->data->run;
+  char text[SB_FORMAT_MAX];
+  SbPoint p;
   if (between(v, SB_STAGE_C, 0, 0.5, &p)) {
     label_curve(v, _("in-stroke"), SB_ROLE_INK,
                 (SbPlace[]){{p.x, p.y - 10, SB_MIDDLE},
@@ -269,7 +272,6 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                             {p.x - 40, p.y + 17, SB_MIDDLE}},
                 3);
   }
-  // The second of two loops beside its own in-stroke; more than two are too many to name.
   if (between(v, SB_STAGE_B, 1, 0.5, &p) && !sb_trace_mark(run->trace, SB_STAGE_B, 2)) {
     label_curve(v, sb_chart_cycle_name(text, run, 1), SB_ROLE_INK,
                 (SbPlace[]){{p.x, p.y + 17, SB_MIDDLE},
@@ -279,6 +281,19 @@ void sb_hysteresis_notes(SbHysteresisView *v) {
                 4);
   }
   for (size_t i = 0; i < v->data->pin_count; i++) {
-    label_pin(v, &v->data->pin[i], right);
+    label_pin(v, &v->data->pin[i], v->at.plot.x + v->at.plot.width);
   }
+}
+
+void sb_hysteresis_notes(SbHysteresisView *v) {
+  const SbChartRun *run = &v->data->run;
+  const double force = run->model ? sb_model_pressure_force(run->model) : 0;
+  note_stop(v);
+  if (force > 0) {
+    note_pressure_force(v, force);
+  }
+  if (run->summary && sb_chart_complete(v->data)) {
+    note_figures(v, force);
+  }
+  note_curves(v);
 }

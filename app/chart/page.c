@@ -193,65 +193,64 @@ SbPage sb_page_begin(cairo_t *cr, SbRect rect, double width, double height, cons
   return (SbPage){whole, {SB_GRID_MARGIN, SB_PAGE_HEADER, whole.width - 2 * SB_GRID_MARGIN, left}};
 }
 
+// The values of a frame, from the right; returns the left end of the first one.
+static double draw_readouts(SbCanvas *c, const SbChartData *data, const SbFrame *frame,
+                            double right, double y) {
+  const SbChartRun *run = &data->run;
+  char number[SB_FORMAT_MAX];
+  SbFormatted f;
+  sb_format(&f, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(run));
+  double x = readout(c, right, y, f.number, f.unit, "00.0",
+                     sb_chart_is_rig(run) ? _("force in the thread") : _("force on the stem"),
+                     SB_ROLE_INK);
+  // Place and time get a fixed number of decimals: digits that come and go distract.
+  sb_format_fixed(number, frame->displacement * 1e3, 2);
+  x = readout(c, x - 42, y, number, "mm", "0.00", C_("stem", "displacement"), SB_ROLE_INK);
+  const double duration = run->trace ? sb_trace_range(run->trace).time_max : 0;
+  sb_format_fixed(number, frame->time, duration < 1 ? 4 : duration < 200 ? 2 : 1);
+  x = readout(c, x - 42, y, number, "s", "00.00", _("time"), SB_ROLE_INK);
+  return readout(c, x - 42, y, sb_chart_span(run, frame->stage), "", "B\u2013C",
+                 sb_chart_phase(run, frame->stage), SB_ROLE_NOW);
+}
+
+// What is to be known of the state of a run; empty if it is complete. `error`: it is an error.
+static void state_text(char *out, size_t size, const SbChartData *data, bool *error) {
+  const bool failed = data->run.state == SB_CHART_FAILED && !data->stale;
+  *error = data->failure || failed;
+  g_strlcpy(out, "", size);
+  if (data->failure || data->stale) {
+    g_strlcpy(out, data->failure ? data->failure : data->stale, size);
+  } else if (failed) {
+    g_strlcpy(out, _("the solver did not converge: up to the last good state"), size);
+  } else if (data->run.state == SB_CHART_PARTIAL) {
+    g_strlcpy(out, _("partial: the run was cancelled"), size);
+  } else if (data->run.state == SB_CHART_RUNNING) {
+    g_snprintf(out, size, _("being computed, %.0f\xc2\xa0%%"), 100 * CLAMP(data->progress, 0, 1));
+  }
+}
+
 void sb_page_header_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags) {
-  SbCanvas canvas;
-  SbCanvas *c = &canvas;
+  SbCanvas canvas, *c = &canvas;
   sb_canvas_init(c, cr, theme);
-  double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
+  const double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
   const SbFrame *frame = flags & SB_CHART_WHOLE ? NULL : sb_chart_frame(data);
-  double free_right = right;
-  double y = rect.y + 48;
-  if (frame) {
-    SbFormatted f;
-    sb_format(&f, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(&data->run));
-    double x =
-        readout(c, right, y, f.number, f.unit, "00.0",
-                sb_chart_is_rig(&data->run) ? _("force in the thread") : _("force on the stem"),
-                SB_ROLE_INK);
-    // Place and time get a fixed number of decimals: digits that come and go distract.
-    char number[SB_FORMAT_MAX];
-    sb_format_fixed(number, frame->displacement * 1e3, 2);
-    x = readout(c, x - 42, y, number, "mm", "0.00", C_("stem", "displacement"), SB_ROLE_INK);
-    double duration = data->run.trace ? sb_trace_range(data->run.trace).time_max : 0;
-    sb_format_fixed(number, frame->time, duration < 1 ? 4 : duration < 200 ? 2 : 1);
-    x = readout(c, x - 42, y, number, "s", "00.00", _("time"), SB_ROLE_INK);
-    double x_time = x - 42;
-    free_right = readout(c, x_time, y, sb_chart_span(&data->run, frame->stage), "",
-                         "B\xe2\x80\x93"
-                         "C",
-                         sb_chart_phase(&data->run, frame->stage), SB_ROLE_NOW);
-  }
-
-  SbTextStyle title = sb_canvas_style(c, SB_TYPE_TITLE, 700, SB_ROLE_INK);
-  SbTextStyle sub = sb_canvas_style(c, 14, 400, SB_ROLE_SECOND);
-  double width = free_right - left - 24;
+  const double end = frame ? draw_readouts(c, data, frame, right, rect.y + 48) : right;
+  const SbTextStyle title = sb_canvas_style(c, SB_TYPE_TITLE, 700, SB_ROLE_INK);
+  const SbTextStyle sub = sb_canvas_style(c, 14, 400, SB_ROLE_SECOND);
+  const double width = end - left - 24;
   sb_canvas_text_fit(c, data->title ? data->title : "Sealbench", &title, left, rect.y + 44, width);
 
   // State first, then the subtitle in what is left of the line.
-  char text[256] = "";
+  char state[256], conditions[160];
   double x = left;
-  SbRole ink = SB_ROLE_WARN, ground = SB_ROLE_WARN_GROUND;
-  if (data->failure) {
-    g_strlcpy(text, data->failure, sizeof text);
-    ink = SB_ROLE_ERROR;
-    ground = SB_ROLE_ERROR_GROUND;
-  } else if (data->stale) {
-    g_strlcpy(text, data->stale, sizeof text);
-  } else if (data->run.state == SB_CHART_PARTIAL) {
-    g_strlcpy(text, _("partial: the run was cancelled"), sizeof text);
-  } else if (data->run.state == SB_CHART_FAILED) {
-    g_strlcpy(text, _("the solver did not converge: up to the last good state"), sizeof text);
-    ink = SB_ROLE_ERROR;
-    ground = SB_ROLE_ERROR_GROUND;
-  } else if (data->run.state == SB_CHART_RUNNING) {
-    g_snprintf(text, sizeof text, _("being computed, %.0f\xc2\xa0%%"),
-               100 * CLAMP(data->progress, 0, 1));
+  bool error;
+  state_text(state, sizeof state, data, &error);
+  if (state[0]) {
+    x += 12 + state_chip(c, state, error ? SB_ROLE_ERROR : SB_ROLE_WARN,
+                         error ? SB_ROLE_ERROR_GROUND : SB_ROLE_WARN_GROUND, left, rect.y + 68,
+                         width);
   }
-  if (text[0]) {
-    x += state_chip(c, text, ink, ground, left, rect.y + 68, width) + 12;
-  }
-  char conditions[160];
   sb_page_conditions_text(conditions, sizeof conditions, &data->run);
   g_autofree char *line = g_strconcat(
       data->subtitle ? data->subtitle : "",
@@ -278,94 +277,106 @@ double sb_page_footer_height(SbRect rect) {
   return SB_PAGE_FOOTER + (is_narrow(rect) ? 18 : 0) + (is_very_narrow(rect) ? 18 : 0);
 }
 
+// Baselines of a foot's lines [px].
+typedef struct {
+  bool narrow; // warnings have a line of their own
+  double left, right, models, errors, version, warnings;
+} FootLines;
+
+static FootLines foot_lines(SbRect rect) {
+  const double line = 18, last = rect.y + rect.height - 20;
+  const bool narrow = is_narrow(rect), very_narrow = is_very_narrow(rect);
+  FootLines at = {.narrow = narrow,
+                  .left = rect.x + SB_GRID_MARGIN,
+                  .right = rect.x + rect.width - SB_GRID_MARGIN,
+                  .warnings = very_narrow ? last - line : last};
+  at.errors = narrow ? at.warnings - line : last;
+  at.models = at.errors - line;
+  at.version = very_narrow ? last : narrow ? at.models : last;
+  at.warnings = narrow ? at.warnings : at.models;
+  return at;
+}
+
+// "  and 3 more", empty for none.
+static void more_text(char *out, size_t size, size_t count) {
+  out[0] = '\0';
+  if (count > 0) {
+    g_snprintf(out, size, _("  and %zu more"), count);
+  }
+}
+
+// As many warnings as fit into `space`, at least one; their number. The serious ones come first, so
+// that none of them is among the number of the others.
+static size_t join_warnings(GString *line, SbCanvas *c, const SbTextStyle *style,
+                            const SbWarnings *list, double space) {
+  const size_t count = list->count + list->dropped;
+  const char *texts[SB_WARNINGS_MAX];
+  size_t shown = 0, ordered = 0;
+  for (int pass = 1; pass >= 0; pass--) {
+    for (size_t i = 0; i < list->count; i++) {
+      if (sb_warning_is_serious(list->item[i].code) == (pass == 1)) {
+        texts[ordered++] = list->item[i].text;
+      }
+    }
+  }
+  for (; shown < list->count; shown++) {
+    g_autofree char *tried = g_strdup_printf("%s%s%s", line->str, shown ? ";  " : "", texts[shown]);
+    char rest[48];
+    more_text(rest, sizeof rest, count - shown - 1);
+    g_autofree char *whole = g_strconcat(tried, rest, NULL);
+    if (shown > 0 && sb_canvas_text_width(c, whole, style) > space) {
+      break;
+    }
+    g_string_assign(line, tried);
+  }
+  return shown;
+}
+
+// Warnings to the right of x = `left`, or on their own line; the number of those that do not fit.
+static void draw_warnings(SbCanvas *c, const SbWarnings *list, const FootLines *at, double left) {
+  const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
+  const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_WARN);
+  const size_t count = list->count + list->dropped;
+  const char *head = count == 1 ? _("Warning") : _("Warnings");
+  const double head_width = sb_canvas_text_width(c, head, &bold) + 8;
+  const double space = at->right - left - head_width;
+  g_autoptr(GString) line = g_string_new(NULL);
+  const size_t shown = join_warnings(line, c, &plain, list, space);
+  char rest[48];
+  more_text(rest, sizeof rest, count - shown);
+  const double rest_width = rest[0] ? sb_canvas_text_width(c, rest, &bold) : 0;
+  const double width = fmin(sb_canvas_text_width(c, line->str, &plain), space - rest_width);
+  const double x = at->narrow ? at->left : at->right - rest_width - width - head_width;
+  sb_canvas_text(c, head, &bold, x, at->warnings, SB_LEFT);
+  sb_canvas_text_fit(c, line->str, &plain, x + head_width, at->warnings, width + 0.5);
+  if (rest[0]) {
+    sb_canvas_text(c, rest, &bold, x + head_width + width, at->warnings, SB_LEFT);
+  }
+}
+
 void sb_page_foot_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbPageFoot *foot) {
-  SbCanvas canvas;
-  SbCanvas *c = &canvas;
+  SbCanvas canvas, *c = &canvas;
   sb_canvas_init(c, cr, theme);
-  double left = rect.x + SB_GRID_MARGIN, right = rect.x + rect.width - SB_GRID_MARGIN;
-  bool narrow = is_narrow(rect);
-  double y2 = rect.y + rect.height - 20, y = y2 - 18;
-  bool very_narrow = is_very_narrow(rect);
-  double y_version = narrow ? y : y2, y_warn = y;
-  if (very_narrow) {
-    y_version = y2;
-    y2 -= 18;
-    y -= 18;
+  const SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
+  const SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  const SbTextStyle third = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_THIRD);
+  const FootLines at = foot_lines(rect);
+  const bool warned = foot->warnings && foot->warnings->count + foot->warnings->dropped > 0;
+
+  // Version and run first: they may not be cut.
+  const double version =
+      24 + sb_canvas_text(c, foot->version, &third, at.right, at.version, SB_RIGHT);
+  double x = at.left + 8 + sb_canvas_text(c, _("Models"), &bold, at.left, at.models, SB_LEFT);
+  double room = at.right - x - (at.version == at.models ? version : 0);
+  if (warned && !at.narrow) {
+    room = fmin(sb_canvas_text_width(c, foot->models, &plain), 0.62 * room);
   }
-  if (narrow) {
-    y_warn = y2;
-    y2 -= 18;
-    y -= 18;
-    y_version = very_narrow ? y_version : y;
-  }
-  SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_SECOND);
-  SbTextStyle plain = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  SbTextStyle third = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_THIRD);
-  SbTextStyle warn = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
-  SbTextStyle warn_bold = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_WARN);
-
-  // Right: version and run; measured first because it may not be cut.
-  const char *version = foot->version;
-  double version_width = sb_canvas_text_width(c, version, &third);
-  sb_canvas_text(c, version, &third, right, y_version, SB_RIGHT);
-
-  // Left: models and errors.
-  double width = sb_canvas_text(c, _("Models"), &bold, left, y, SB_LEFT);
-  const char *text = foot->models;
-  double models_width = sb_canvas_text_width(c, text, &plain);
-  size_t warnings = foot->warnings ? foot->warnings->count + foot->warnings->dropped : 0;
-  double room = right - left - width - 8 - (narrow && !very_narrow ? version_width + 24 : 0);
-  double models_room = warnings && !narrow ? fmin(models_width, 0.62 * room) : room;
-  models_room = sb_canvas_text_fit(c, text, &plain, left + width + 8, y, models_room);
-  double warn_left = narrow ? left : left + width + 8 + models_room + 32;
-
-  width = sb_canvas_text(c, _("Error estimates"), &bold, left, y2, SB_LEFT);
-  sb_canvas_text_fit(c, foot->errors, &plain, left + width + 8, y2,
-                     right - left - width - 8 - (narrow ? 0 : version_width + 24));
-
-  // Right: as many warnings as fit, the number of the others.
-  if (warnings) {
-    const SbWarnings *list = foot->warnings;
-    const char *head = warnings == 1 ? _("Warning") : _("Warnings");
-    double head_width = sb_canvas_text_width(c, head, &warn_bold) + 8;
-    double space = right - warn_left - head_width;
-    g_autoptr(GString) line = g_string_new(NULL);
-    // The serious first, so that none of them is among the number of the others.
-    const char *texts[SB_WARNINGS_MAX];
-    size_t shown = 0, ordered = 0;
-    for (int pass = 1; pass >= 0; pass--) {
-      for (size_t i = 0; i < list->count; i++) {
-        if (sb_warning_is_serious(list->item[i].code) == (pass == 1)) {
-          texts[ordered++] = list->item[i].text;
-        }
-      }
-    }
-    while (shown < list->count) {
-      g_autofree char *tried =
-          g_strdup_printf("%s%s%s", line->str, shown ? ";  " : "", texts[shown]);
-      char rest[48] = "";
-      if (warnings - shown - 1 > 0) {
-        g_snprintf(rest, sizeof rest, _("  and %zu more"), warnings - shown - 1);
-      }
-      g_autofree char *whole = g_strconcat(tried, rest, NULL);
-      if (shown > 0 && sb_canvas_text_width(c, whole, &warn) > space) {
-        break;
-      }
-      g_string_assign(line, tried);
-      shown++;
-    }
-    char rest[48] = "";
-    if (warnings > shown) {
-      g_snprintf(rest, sizeof rest, _("  and %zu more"), warnings - shown);
-    }
-    double rest_width = rest[0] ? sb_canvas_text_width(c, rest, &warn_bold) : 0;
-    double line_width = fmin(sb_canvas_text_width(c, line->str, &warn), space - rest_width);
-    double x = narrow ? left : right - rest_width - line_width - head_width;
-    sb_canvas_text(c, head, &warn_bold, x, y_warn, SB_LEFT);
-    sb_canvas_text_fit(c, line->str, &warn, x + head_width, y_warn, line_width + 0.5);
-    if (rest[0]) {
-      sb_canvas_text(c, rest, &warn_bold, x + head_width + line_width, y_warn, SB_LEFT);
-    }
+  const double end = x + sb_canvas_text_fit(c, foot->models, &plain, x, at.models, room);
+  x = at.left + 8 + sb_canvas_text(c, _("Error estimates"), &bold, at.left, at.errors, SB_LEFT);
+  sb_canvas_text_fit(c, foot->errors, &plain, x, at.errors,
+                     at.right - x - (at.version == at.errors ? version : 0));
+  if (warned) {
+    draw_warnings(c, foot->warnings, &at, at.narrow ? at.left : end + 32);
   }
   sb_canvas_finish(c);
 }

@@ -229,107 +229,125 @@ static void hatched(SbCanvas *c, SbRect r, SbRole ground, SbRole hatch, bool lef
   cairo_stroke(c->cr);
 }
 
-void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
-                       unsigned flags) {
-  SbCanvas canvas;
-  SbCanvas *c = &canvas;
-  SbRect in = begin(c, cr, rect, theme, flags, _("Sliding plate"),
-                    _("schematic, from the side: two of the four rings"));
-  const SbModel *m = data->run.model;
-  const SbFrame *f = sb_chart_frame(data);
-  double travel = m ? fmax(sb_model_rig(m)->speed * sb_model_rig(m)->duration, 1e-6) : 1e-3;
-  double moved = f ? fmax(f->displacement, 0) / travel : 0;
-  double wound = f ? fmax(f->platen, 0) / travel : 0;
-  double w = in.width, h = fmin(in.height, 0.42 * w), top = in.y + 0.5 * (in.height - h);
-  SbColor outline = sb_canvas_role(c, SB_ROLE_OUTLINE), ink = sb_canvas_role(c, SB_ROLE_INK);
-  SbColor now = sb_canvas_role(c, SB_ROLE_NOW);
+// Positions of the plate's parts in the picture.
+typedef struct {
+  SbRect plate, block, base;
+  double ring;           // radius of a ring
+  double thread, cell;   // height of the thread, place of the load cell on it
+  double drum_x, drum_r; // centre and radius of the motor's drum
+  double turn;           // of the drum [rad]
+} Plate;
 
-  // Base, rings glued under the plate, plate and block, from the ground up.
-  double floor_y = top + 0.80 * h, ring = 0.055 * h, room = 0.16 * w;
-  double plate_w = 0.40 * w, plate_x = in.x + 0.08 * w + moved * room;
-  double plate_y = floor_y - 2 * ring - 0.10 * h;
-  hatched(c, (SbRect){in.x, floor_y, w, 0.12 * h}, SB_ROLE_HOUSING, SB_ROLE_HOUSING_HATCH, false);
-  const double seat[] = {0.16, 0.84};
+static Plate plate_at(SbRect in, const SbModel *m, const SbFrame *f) {
+  const double travel = m ? fmax(sb_model_rig(m)->speed * sb_model_rig(m)->duration, 1e-6) : 1e-3;
+  const double moved = f ? fmax(f->displacement, 0) / travel : 0;
+  const double wound = f ? fmax(f->platen, 0) / travel : 0;
+  const double w = in.width, h = fmin(in.height, 0.42 * w), top = in.y + 0.5 * (in.height - h);
+  const double floor_y = top + 0.80 * h, ring = 0.055 * h, room = 0.16 * w;
+  const double width = 0.40 * w, left = in.x + 0.08 * w + moved * room;
+  const double y = floor_y - 2 * ring - 0.10 * h, block = 0.26 * h;
+  const double drum_x = in.x + 0.90 * w, drum_r = 0.10 * h;
+  return (Plate){.plate = {left, y, width, 0.10 * h + 0.12 * ring},
+                 .block = {left + 0.2 * width, y - block, 0.6 * width, block},
+                 .base = {in.x, floor_y, w, 0.12 * h},
+                 .ring = ring,
+                 .thread = y + 0.05 * h,
+                 .cell = 0.5 * (left + width + drum_x - drum_r),
+                 .drum_x = drum_x,
+                 .drum_r = drum_r,
+                 .turn = wound * room / drum_r};
+}
+
+// Base, rings glued under the plate, plate and block, from the ground up.
+static void draw_plate(SbCanvas *c, const Plate *at) {
+  static const double seat[] = {0.16, 0.84};
+  cairo_t *cr = c->cr;
+  hatched(c, at->base, SB_ROLE_HOUSING, SB_ROLE_HOUSING_HATCH, false);
   for (int i = 0; i < 2; i++) {
     for (int side = -1; side <= 1; side += 2) {
       // A ring in section: two discs, pressed flat a little.
-      double x = plate_x + seat[i] * plate_w + side * 2.2 * ring;
+      const double x = at->plate.x + seat[i] * at->plate.width + side * 2.2 * at->ring;
       cairo_save(cr);
-      cairo_translate(cr, x, floor_y - 0.94 * ring);
-      cairo_scale(cr, 1.04 * ring, 0.94 * ring);
+      cairo_translate(cr, x, at->base.y - 0.94 * at->ring);
+      cairo_scale(cr, 1.04 * at->ring, 0.94 * at->ring);
       cairo_arc(cr, 0, 0, 1, 0, 2 * G_PI);
       cairo_restore(cr);
       sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_OUTER), 0.35);
       cairo_fill_preserve(cr);
-      sb_canvas_pen(c, 1.4, NULL);
-      sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_OUTER), 1);
+      sb_canvas_stroke(c, (SbStroke){SB_ROLE_OUTER, 1.4, NULL});
       cairo_stroke(cr);
     }
   }
-  hatched(c, (SbRect){plate_x, plate_y, plate_w, 0.10 * h + 0.12 * ring}, SB_ROLE_STEM,
-          SB_ROLE_STEM_HATCH, true);
-  double block_h = 0.26 * h;
-  hatched(c, (SbRect){plate_x + 0.2 * plate_w, plate_y - block_h, 0.6 * plate_w, block_h},
-          SB_ROLE_STEM, SB_ROLE_STEM_HATCH, true);
+  hatched(c, at->plate, SB_ROLE_STEM, SB_ROLE_STEM_HATCH, true);
+  hatched(c, at->block, SB_ROLE_STEM, SB_ROLE_STEM_HATCH, true);
+}
 
-  // Thread with its load cell to the motor's drum, which has turned as far as it has wound up.
-  double thread_y = plate_y + 0.05 * h, drum_x = in.x + 0.90 * w, drum_r = 0.10 * h;
-  double from = plate_x + plate_w, cell = 0.5 * (from + drum_x - drum_r);
-  sb_canvas_pen(c, 1.8, NULL);
-  sb_canvas_color(c, ink, 1);
-  cairo_move_to(cr, from, thread_y);
-  cairo_line_to(cr, drum_x, thread_y);
-  cairo_stroke(cr);
-  SbRect box = {cell - 26, thread_y - 11, 52, 22};
-  sb_canvas_rounded(c, box, 3);
+// The thread with its load cell to the motor's drum, which has turned as far as it has wound up.
+static void draw_thread(SbCanvas *c, const Plate *at) {
+  const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
+  const SbColor outline = sb_canvas_role(c, SB_ROLE_OUTLINE);
+  const double centre = at->thread + at->drum_r, hand = 0.8 * at->drum_r;
+  cairo_t *cr = c->cr;
+  sb_canvas_line(c, (SbStroke){SB_ROLE_INK, 1.8, NULL}, at->plate.x + at->plate.width, at->thread,
+                 at->drum_x, at->thread);
+  sb_canvas_rounded(c, (SbRect){at->cell - 26, at->thread - 11, 52, 22}, 3);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_PANEL), 1);
   cairo_fill_preserve(cr);
   sb_canvas_color(c, outline, 1);
   cairo_stroke(cr);
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
-  SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
-  SbTextStyle at_now = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
-  sb_canvas_text(c, _("cell"), &label, cell, thread_y + 4.3, SB_MIDDLE);
-  double centre_y = thread_y + drum_r;
-  cairo_arc(cr, drum_x, centre_y, drum_r, 0, 2 * G_PI);
+  sb_canvas_text(c, _("cell"), &label, at->cell, at->thread + 4.3, SB_MIDDLE);
+  cairo_arc(cr, at->drum_x, centre, at->drum_r, 0, 2 * G_PI);
   sb_canvas_color(c, sb_canvas_role(c, SB_ROLE_HOUSING), 1);
   cairo_fill_preserve(cr);
-  sb_canvas_pen(c, SB_LINE_OUTLINE, NULL);
-  sb_canvas_color(c, outline, 1);
+  sb_canvas_stroke(c, (SbStroke){SB_ROLE_OUTLINE, SB_LINE_OUTLINE, NULL});
   cairo_stroke(cr);
-  double turn = wound * room / drum_r;
-  cairo_move_to(cr, drum_x, centre_y);
-  cairo_line_to(cr, drum_x + 0.8 * drum_r * sin(turn), centre_y - 0.8 * drum_r * cos(turn));
-  cairo_stroke(cr);
-  sb_canvas_text(c, _("motor"), &label, drum_x, thread_y - 10, SB_MIDDLE);
+  sb_canvas_line(c, (SbStroke){SB_ROLE_OUTLINE, SB_LINE_OUTLINE, NULL}, at->drum_x, centre,
+                 at->drum_x + hand * sin(at->turn), centre - hand * cos(at->turn));
+  sb_canvas_text(c, _("motor"), &label, at->drum_x, at->thread - 10, SB_MIDDLE);
+}
 
-  // Figures at the playhead.
+static void draw_load(SbCanvas *c, const Plate *at, double load) {
+  const SbTextStyle strong = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
+  const double x = at->plate.x + 0.5 * at->plate.width, y = at->block.y - 40;
   char value[SB_FORMAT_MAX], text[96];
+  g_snprintf(text, sizeof text, _("load %s"), sb_format_given(value, SB_QUANTITY_FORCE, load));
+  sb_canvas_text(c, text, &strong, x, y - 6, SB_MIDDLE);
+  sb_canvas_line(c, (SbStroke){SB_ROLE_INK, 2, NULL}, x, y, x, y + 28);
+  sb_canvas_arrowhead(c, x, y + 36, 0, 1, 1);
+}
+
+// Figures at the playhead.
+static void draw_figures(SbCanvas *c, const Plate *at, const SbChartData *data, const SbFrame *f) {
+  const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
+  const SbModel *m = data->run.model;
+  const double still = 1e-3 * (m ? sb_model_rig(m)->speed : 1);
+  char value[SB_FORMAT_MAX], text[96];
+  sb_format_text(value, SB_QUANTITY_FORCE, f->force, sb_chart_error_force(&data->run));
+  g_snprintf(text, sizeof text, _("thread %s"), value);
+  sb_canvas_text(c, text, &style, at->cell, at->thread - 20, SB_MIDDLE);
+  g_snprintf(text, sizeof text, _("plate %s\xc2\xa0mm, %s"),
+             sb_format_fixed(value, f->displacement * 1e3, 3),
+             f->stage == SB_STAGE_A      ? _("not yet broken away")
+             : fabs(f->velocity) < still ? _("stuck")
+                                         : _("slipping"));
+  sb_canvas_text(c, text, &style, at->plate.x, at->base.y + at->base.height + 18, SB_LEFT);
+}
+
+void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
+                       unsigned flags) {
+  SbCanvas canvas;
+  const SbRect in = begin(&canvas, cr, rect, theme, flags, _("Sliding plate"),
+                          _("schematic, from the side: two of the four rings"));
+  const SbModel *m = data->run.model;
+  const SbFrame *f = sb_chart_frame(data);
+  const Plate at = plate_at(in, m, f);
+  draw_plate(&canvas, &at);
+  draw_thread(&canvas, &at);
   if (m) {
-    g_snprintf(text, sizeof text, _("load %s"),
-               sb_format_given(value, SB_QUANTITY_FORCE, sb_model_rig(m)->load));
-    double x = plate_x + 0.5 * plate_w, y = plate_y - block_h - 40;
-    sb_canvas_text(c, text, &strong, x, y - 6, SB_MIDDLE);
-    sb_canvas_pen(c, 2, NULL);
-    sb_canvas_color(c, ink, 1);
-    cairo_move_to(cr, x, y);
-    cairo_line_to(cr, x, y + 28);
-    cairo_stroke(cr);
-    sb_canvas_arrowhead(c, x, y + 36, 0, 1, 1);
+    draw_load(&canvas, &at, sb_model_rig(m)->load);
   }
   if (f) {
-    g_snprintf(
-        text, sizeof text, _("thread %s"),
-        sb_format_text(value, SB_QUANTITY_FORCE, f->force, sb_chart_error_force(&data->run)));
-    sb_canvas_text(c, text, &at_now, cell, thread_y - 20, SB_MIDDLE);
-    char place[SB_FORMAT_MAX];
-    sb_format_fixed(place, f->displacement * 1e3, 3);
-    g_snprintf(text, sizeof text, _("plate %s\xc2\xa0mm, %s"), place,
-               f->stage == SB_STAGE_A ? _("not yet broken away")
-               : fabs(f->velocity) < 1e-3 * (m ? sb_model_rig(m)->speed : 1) ? _("stuck")
-                                                                             : _("slipping"));
-    sb_canvas_color(c, now, 1);
-    sb_canvas_text(c, text, &at_now, plate_x, floor_y + 0.12 * h + 18, SB_LEFT);
+    draw_figures(&canvas, &at, data, f);
   }
-  sb_canvas_finish(c);
+  sb_canvas_finish(&canvas);
 }

@@ -386,30 +386,69 @@ static int name_series(Plot *plot, SbPoint **points, double gutter) {
   return named;
 }
 
-static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t index) {
-  const SbStudyPanel *panel = &study->panel[index];
-  sb_canvas_panel(c, rect);
-  SbTextStyle title = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
-  SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  bool narrow = rect.width < NARROW;
-  double pad = narrow ? 12 : SB_GRID_PADDING;
-  const char *quantity = sb_translation(panel->y.quantity);
+// "Force / N", smaller where it is too long.
+static void panel_title(SbCanvas *c, SbRect rect, double pad, const SbStudyAxis *y) {
+  SbTextStyle style = sb_canvas_style(c, SB_TYPE_PANEL_WINDOW, 700, SB_ROLE_INK);
+  const char *quantity = sb_translation(y->quantity);
   const char *rest = *quantity != '\0' ? g_utf8_next_char(quantity) : quantity;
   g_autofree char *first = g_utf8_strup(quantity, rest - quantity);
-  g_autofree char *text =
-      g_strdup_printf("%s%s%s%s%s", first, rest, panel->y.unit[0] ? " / " : "", panel->y.unit,
-                      panel->y.logarithmic ? _(", log scale") : "");
-  if (sb_canvas_text_width(c, text, &title) > rect.width - 2 * pad) {
-    title = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
+  g_autofree char *text = g_strdup_printf("%s%s%s%s%s", first, rest, y->unit[0] ? " / " : "",
+                                          y->unit, y->logarithmic ? _(", log scale") : "");
+  if (sb_canvas_text_width(c, text, &style) > rect.width - 2 * pad) {
+    style.size = SB_TYPE_LABEL;
   }
-  sb_canvas_text_fit(c, text, &title, rect.x + pad, rect.y + 28, rect.width - 2 * pad);
+  sb_canvas_text_fit(c, text, &style, rect.x + pad, rect.y + 28, rect.width - 2 * pad);
+}
 
-  double gutter = narrow ? 0 : 40;
-  for (size_t s = 0; !narrow && s < panel->series_count; s++) {
+// Room for the names of the curves on the right of the plot.
+static double gutter_of(SbCanvas *c, const SbStudyPanel *panel, double width) {
+  const SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  double gutter = width < NARROW ? 0 : 40;
+  for (size_t s = 0; width >= NARROW && s < panel->series_count; s++) {
     g_autofree char *shown = sb_translation_of_case(panel->series[s].name);
     gutter = fmax(gutter, sb_canvas_text_width(c, shown, &label) + 24);
   }
-  gutter = fmin(gutter, 0.4 * rect.width);
+  return fmin(gutter, 0.4 * width);
+}
+
+// The axes, curves and marks of a panel; without a curve the reason.
+static void draw_plot(Plot *plot, double pad, double gutter) {
+  SbCanvas *c = plot->canvas;
+  const SbStudyPanel *panel = plot->panel;
+  const SbRect r = plot->at.plot, card = plot->at.card;
+  draw_axes(plot);
+  SbPoint *points[SB_STUDY_SERIES];
+  for (size_t s = 0; s < panel->series_count; s++) {
+    points[s] = series_points(plot, &panel->series[s]);
+  }
+  // What was solved lies over what it is compared with.
+  static const SbStudyStyle order[] = {SB_STUDY_REFERENCE, SB_STUDY_CURVE, SB_STUDY_DOTS};
+  for (size_t k = 0; k < G_N_ELEMENTS(order); k++) {
+    for (size_t s = panel->series_count; s-- > 0;) {
+      if (panel->series[s].style == order[k]) {
+        draw_series(plot, &panel->series[s], points[s]);
+      }
+    }
+  }
+  draw_marks(plot);
+  if (name_series(plot, points, gutter) == 0) {
+    const SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
+    const char *empty = sb_translation(panel->empty);
+    double half = fmin(sb_canvas_text_width(c, empty, &note), card.width - 2 * pad) / 2;
+    double x = CLAMP(r.x + r.width / 2, card.x + pad + half, card.x + card.width - pad - half);
+    sb_canvas_text_fit(c, empty, &note, x - half, r.y + r.height / 2, 2 * half + 1);
+  }
+  for (size_t s = 0; s < panel->series_count; s++) {
+    g_free(points[s]);
+  }
+}
+
+static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t index) {
+  const SbStudyPanel *panel = &study->panel[index];
+  const bool narrow = rect.width < NARROW;
+  const double pad = narrow ? 12 : SB_GRID_PADDING, gutter = gutter_of(c, panel, rect.width);
+  sb_canvas_panel(c, rect);
+  panel_title(c, rect, pad, &panel->y);
   SbLabels *labels = g_new(SbLabels, 1);
   Plot plot = {
       .canvas = c,
@@ -426,34 +465,10 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   };
   set_scales(&plot);
   fit_numbers(&plot);
-  SbRect r = plot.at.plot;
-  double right = fmin(r.x + r.width + 12, rect.x + rect.width - 4);
+  const SbRect r = plot.at.plot;
+  const double right = fmin(r.x + r.width + 12, rect.x + rect.width - 4);
   sb_labels_init(labels, (SbRect){r.x - 2, r.y - 10, right - r.x + 2, r.height + 10});
-  draw_axes(&plot);
-  SbPoint *points[SB_STUDY_SERIES];
-  for (size_t s = 0; s < panel->series_count; s++) {
-    points[s] = series_points(&plot, &panel->series[s]);
-  }
-  // What was solved lies over what it is compared with.
-  static const SbStudyStyle order[] = {SB_STUDY_REFERENCE, SB_STUDY_CURVE, SB_STUDY_DOTS};
-  for (size_t k = 0; k < G_N_ELEMENTS(order); k++) {
-    for (size_t s = panel->series_count; s-- > 0;) {
-      if (panel->series[s].style == order[k]) {
-        draw_series(&plot, &panel->series[s], points[s]);
-      }
-    }
-  }
-  draw_marks(&plot);
-  if (name_series(&plot, points, gutter) == 0) {
-    SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
-    const char *empty = sb_translation(panel->empty);
-    double half = fmin(sb_canvas_text_width(c, empty, &note), rect.width - 2 * pad) / 2;
-    double x = CLAMP(r.x + r.width / 2, rect.x + pad + half, rect.x + rect.width - pad - half);
-    sb_canvas_text_fit(c, empty, &note, x - half, r.y + r.height / 2, 2 * half + 1);
-  }
-  for (size_t s = 0; s < panel->series_count; s++) {
-    g_free(points[s]);
-  }
+  draw_plot(&plot, pad, gutter);
   g_free(labels);
 }
 

@@ -38,11 +38,123 @@ static char *step_text(SbParamId id, double step, bool tolerance) {
   return tolerance ? g_strconcat("± ", text, NULL) : g_strdup("± 5 %");
 }
 
+// A tornado that is being drawn, in the figure's display unit.
+typedef struct {
+  SbCanvas *c;
+  SbRect rect; // of the whole drawing
+  SbAxes axes;
+  const SbFigure *of;
+  const SbDesignPlace *at;
+  size_t column;          // of the figure
+  double middle, side[2]; // its value, its limits
+} Tornado;
+
+static double change_of(const Tornado *t, size_t k) {
+  return sb_quantity_to_shown(t->at->effect[t->column][k].change, t->of->si, t->of->shown);
+}
+
+// The range holds the largest effect, and a limit that is near.
+static void set_axes(Tornado *t, size_t count) {
+  const double names = fmin(150, 0.27 * t->rect.width), steps = 72, shares = 52;
+  const SbRect plot = {t->rect.x + names + steps, t->rect.y + 40,
+                       t->rect.width - names - steps - shares, fmax(t->rect.height - 40 - 26, 20)};
+  double reach = 0;
+  for (size_t k = 0; k < count; k++) {
+    reach = fmax(reach, fabs(change_of(t, k)));
+  }
+  double ends[2] = {t->middle - 1.4 * reach, t->middle + 1.4 * reach};
+  for (int side = 0; side < 2; side++) {
+    if (isfinite(t->side[side]) && fabs(t->side[side] - t->middle) < 3 * reach) {
+      ends[0] = fmin(ends[0], t->side[side] - 0.15 * reach);
+      ends[1] = fmax(ends[1], t->side[side] + 0.15 * reach);
+    }
+  }
+  t->axes = (SbAxes){.upright = true};
+  sb_axes_linear(&t->axes, plot, ends[0], ends[1], 0, 1);
+  sb_axes_ticks(&t->axes, 5, 0);
+}
+
+// The ground beyond the limits.
+static void draw_sides(const Tornado *t) {
+  const SbRect plot = t->axes.plot;
+  for (int side = 0; side < 2; side++) {
+    if (t->side[side] >= t->axes.x.lo && t->side[side] <= t->axes.x.hi) {
+      const double px = sb_axis_at(&t->axes.x, t->side[side]);
+      const double end = side == 0 ? plot.x : plot.x + plot.width;
+      sb_canvas_fill(t->c, (SbRect){fmin(px, end), plot.y, fabs(px - end), plot.height},
+                     SB_ROLE_ERROR_GROUND, 1);
+      sb_canvas_line(t->c, (SbStroke){SB_ROLE_ERROR, 1.6, NULL}, px, plot.y, px,
+                     plot.y + plot.height);
+    }
+  }
+}
+
+// The share of the variance that a tolerance causes, as text.
+static void share_text(char *out, size_t size, const Tornado *t, size_t k) {
+  const double sigma = t->at->effect[t->column][k].change / 3;
+  const double variance = t->at->variance[t->column];
+  const double part = variance > 0 ? 100 * sigma * sigma / variance : NAN;
+  if (!t->at->effect[t->column][k].tolerance) {
+    g_strlcpy(out, "–", size);
+  } else if (part < 1) {
+    g_strlcpy(out, "< 1 %", size);
+  } else {
+    g_snprintf(out, size, "%.0f %%", part);
+  }
+}
+
+static void draw_effect(const Tornado *t, size_t k, double y, double high) {
+  SbCanvas *c = t->c;
+  const SbRect plot = t->axes.plot;
+  const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
+  const SbTextStyle small = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  const double change = change_of(t, k), base = y + high / 2 + 4;
+  const double zero = sb_axis_at(&t->axes.x, t->middle);
+  const double a = sb_axis_at(&t->axes.x, t->middle - fabs(change));
+  const double b = sb_axis_at(&t->axes.x, t->middle + fabs(change));
+  sb_canvas_color(c, sb_theme_diverging(c->theme, -0.6), 1);
+  cairo_rectangle(c->cr, a, y + 3, zero - a, high - 6);
+  cairo_fill(c->cr);
+  sb_canvas_color(c, sb_theme_diverging(c->theme, 0.6), 1);
+  cairo_rectangle(c->cr, zero, y + 3, b - zero, high - 6);
+  cairo_fill(c->cr);
+  // Which end the greater value makes.
+  if (k < 2 && a - plot.x > 34 && plot.x + plot.width - b > 34) {
+    sb_canvas_text(c, change > 0 ? _("less") : _("more"), &small, a - 4, base, SB_RIGHT);
+    sb_canvas_text(c, change > 0 ? _("more") : _("less"), &small, b + 4, base, SB_LEFT);
+  }
+  const SbParamId id = t->at->effect[t->column][k].id;
+  sb_canvas_text_fit(c, sb_translation(sb_param(id)->label), &name, t->rect.x, base,
+                     fmin(150, 0.27 * t->rect.width) - 6);
+  g_autofree char *step =
+      step_text(id, t->at->effect[t->column][k].step, t->at->effect[t->column][k].tolerance);
+  sb_canvas_text(c, step, &small, plot.x - 10, base, SB_RIGHT);
+  char share[32];
+  share_text(share, sizeof share, t, k);
+  sb_canvas_text(c, share, &name, t->rect.x + t->rect.width, base, SB_RIGHT);
+}
+
+static void draw_effects(Tornado *t, size_t count) {
+  const SbTextStyle small = sb_canvas_style(t->c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  set_axes(t, count);
+  sb_axes_draw(t->c, &t->axes, NULL);
+  draw_sides(t);
+  const SbRect plot = t->axes.plot;
+  const double high = fmax(fmin(21, plot.height / (double)count), 14);
+  const double zero = sb_axis_at(&t->axes.x, t->middle);
+  sb_canvas_text(t->c, _("of the variance"), &small, t->rect.x + t->rect.width, t->rect.y + 32,
+                 SB_RIGHT);
+  for (size_t k = 0; k < MIN(count, (size_t)fmax(plot.height / 14, 1)); k++) {
+    draw_effect(t, k, plot.y + high * (double)k, high);
+  }
+  sb_canvas_line(t->c, (SbStroke){SB_ROLE_INK, 1.6, NULL}, zero, plot.y, zero,
+                 plot.y + plot.height);
+}
+
 void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                             const SbDesignAnswer *answer, int figure) {
   SbCanvas canvas;
-  SbCanvas *c = &canvas;
-  sb_canvas_init(c, cr, theme);
+  sb_canvas_init(&canvas, cr, theme);
   const int which = shown_place(answer), column = sb_design_answer_figure(answer, figure);
   const SbDesignPlace *at = &answer->place[which];
   const SbFigure *of = sb_figure(figure);
@@ -50,92 +162,25 @@ void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   g_autofree char *note = g_strdup_printf(which == SB_DESIGN_BEST ? _("%s at the best found / %s")
                                                                   : _("%s at present / %s"),
                                           label, of->shown);
-  sb_frame_title(c, rect, 13, _("Which tolerance matters"), note);
-  const SbTextStyle name = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  const SbTextStyle small = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+  sb_frame_title(&canvas, rect, 13, _("Which tolerance matters"), note);
   const size_t count = column >= 0 && at->known ? at->effects[column] : 0;
-  if (count == 0) {
-    sb_canvas_text(c, at->known ? _("Nothing changes it.") : _("Not computed yet."), &small, rect.x,
-                   rect.y + 44, SB_LEFT);
-    sb_canvas_finish(c);
-    return;
+  if (count > 0) {
+    const SbLimit limit = limit_on(answer, figure);
+    Tornado tornado = {.c = &canvas,
+                       .rect = rect,
+                       .of = of,
+                       .at = at,
+                       .column = (size_t)column,
+                       .middle = sb_quantity_to_shown(at->figure[column], of->si, of->shown),
+                       .side = {sb_quantity_to_shown(limit.low, of->si, of->shown),
+                                sb_quantity_to_shown(limit.high, of->si, of->shown)}};
+    draw_effects(&tornado, count);
+  } else {
+    const SbTextStyle small = sb_canvas_style(&canvas, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
+    sb_canvas_text(&canvas, at->known ? _("Nothing changes it.") : _("Not computed yet."), &small,
+                   rect.x, rect.y + 44, SB_LEFT);
   }
-  const SbLimit limit = limit_on(answer, figure);
-  const double names = fmin(150, 0.27 * rect.width), steps = 72, shares = 52;
-  const SbRect plot = {rect.x + names + steps, rect.y + 40, rect.width - names - steps - shares,
-                       fmax(rect.height - 40 - 26, 20)};
-  const double middle = sb_quantity_to_shown(at->figure[column], of->si, of->shown);
-  double reach = 0;
-  for (size_t k = 0; k < count; k++) {
-    reach =
-        fmax(reach, fabs(sb_quantity_to_shown(at->effect[column][k].change, of->si, of->shown)));
-  }
-  double ends[2] = {middle - 1.4 * reach, middle + 1.4 * reach};
-  const double sides[2] = {sb_quantity_to_shown(limit.low, of->si, of->shown),
-                           sb_quantity_to_shown(limit.high, of->si, of->shown)};
-  // A limit that is near is in sight.
-  for (int side = 0; side < 2; side++) {
-    if (isfinite(sides[side]) && fabs(sides[side] - middle) < 3 * reach) {
-      ends[0] = fmin(ends[0], sides[side] - 0.15 * reach);
-      ends[1] = fmax(ends[1], sides[side] + 0.15 * reach);
-    }
-  }
-  SbAxes axes = {.upright = true};
-  sb_axes_linear(&axes, plot, ends[0], ends[1], 0, 1);
-  sb_axes_ticks(&axes, 5, 0);
-  sb_axes_draw(c, &axes, NULL);
-  for (int side = 0; side < 2; side++) {
-    if (!isfinite(sides[side]) || sides[side] < axes.x.lo || sides[side] > axes.x.hi) {
-      continue;
-    }
-    const double px = sb_axis_at(&axes.x, sides[side]),
-                 end = side == 0 ? plot.x : plot.x + plot.width;
-    sb_canvas_fill(c, (SbRect){fmin(px, end), plot.y, fabs(px - end), plot.height},
-                   SB_ROLE_ERROR_GROUND, 1);
-    sb_canvas_line(c, (SbStroke){SB_ROLE_ERROR, 1.6, NULL}, px, plot.y, px, plot.y + plot.height);
-  }
-  const double row = fmin(21, plot.height / (double)count);
-  const size_t fit = (size_t)fmax(plot.height / 14, 1);
-  const double zero = sb_axis_at(&axes.x, middle);
-  sb_canvas_text(c, _("of the variance"), &small, rect.x + rect.width, rect.y + 32, SB_RIGHT);
-  for (size_t k = 0; k < count && k < fit; k++) {
-    const double y = plot.y + fmax(row, 14) * (double)k, high = fmax(row, 14);
-    const double change = sb_quantity_to_shown(at->effect[column][k].change, of->si, of->shown);
-    const double a = sb_axis_at(&axes.x, middle - fabs(change)),
-                 b = sb_axis_at(&axes.x, middle + fabs(change));
-    const SbParamId id = at->effect[column][k].id;
-    sb_canvas_color(c, sb_theme_diverging(theme, -0.6), 1);
-    cairo_rectangle(cr, a, y + 3, zero - a, high - 6);
-    cairo_fill(cr);
-    sb_canvas_color(c, sb_theme_diverging(theme, 0.6), 1);
-    cairo_rectangle(cr, zero, y + 3, b - zero, high - 6);
-    cairo_fill(cr);
-    // Which end the greater value makes.
-    if (k < 2 && a - plot.x > 34 && plot.x + plot.width - b > 34) {
-      sb_canvas_text(c, change > 0 ? _("less") : _("more"), &small, a - 4, y + high / 2 + 4,
-                     SB_RIGHT);
-      sb_canvas_text(c, change > 0 ? _("more") : _("less"), &small, b + 4, y + high / 2 + 4,
-                     SB_LEFT);
-    }
-    sb_canvas_text_fit(c, sb_translation(sb_param(id)->label), &name, rect.x, y + high / 2 + 4,
-                       names - 6);
-    g_autofree char *step =
-        step_text(id, at->effect[column][k].step, at->effect[column][k].tolerance);
-    sb_canvas_text(c, step, &small, plot.x - 10, y + high / 2 + 4, SB_RIGHT);
-    const double sigma = at->effect[column][k].change / 3;
-    const double part = at->variance[column] > 0 ? 100 * sigma * sigma / at->variance[column] : NAN;
-    char share[32];
-    if (!at->effect[column][k].tolerance) {
-      g_strlcpy(share, "–", sizeof share);
-    } else if (part < 1) {
-      g_strlcpy(share, "< 1 %", sizeof share);
-    } else {
-      g_snprintf(share, sizeof share, "%.0f %%", part);
-    }
-    sb_canvas_text(c, share, &name, rect.x + rect.width, y + high / 2 + 4, SB_RIGHT);
-  }
-  sb_canvas_line(c, (SbStroke){SB_ROLE_INK, 1.6, NULL}, zero, plot.y, zero, plot.y + plot.height);
-  sb_canvas_finish(c);
+  sb_canvas_finish(&canvas);
 }
 
 // Scatter -----------------------------------------------------------------------------------------
