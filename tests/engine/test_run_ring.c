@@ -303,6 +303,7 @@ static void test_threads(void) {
       g_error("%s: %.17g and %.17g", sb_figure(i)->path, a, b);
     }
   }
+  g_assert_cmpuint(sb_run_summary(one)->work, ==, sb_run_summary(two)->work);
   size_t count, other;
   const SbFrame *frames = sb_run_frames(one, &count), *others = sb_run_frames(two, &other);
   g_assert_cmpuint(count, ==, other);

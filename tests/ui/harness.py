@@ -313,20 +313,49 @@ def scene(folder, **values):
     return path
 
 
-def least_of(test, runs):
+def least_of(test, runs, *window):
     """Runs a test, again where only a limit of time is missed: the least of some runs counts."""
     for left in reversed(range(runs)):
         try:
             with tempfile.TemporaryDirectory() as folder:
-                return test(folder)
+                return test(*window, folder)
         except Slow as slow:
             print("# %s" % slow)
             if left == 0:
                 raise
 
 
-def main(*tests):
-    """Runs the tests and prints TAP. Arguments: none, or `only NAME...` or `without NAME...`."""
+class Shared:
+    """A window on the shipped scene for tests that run one after the other in it, since its start takes
+    seconds. Each leaves it as the next expects it; one that fails leaves the next a new window."""
+
+    def __init__(self, *tests):
+        self.tests = tests
+        self.app = None
+
+    def run(self, test):
+        if self.app is None:
+            self.folder = tempfile.TemporaryDirectory()
+            self.app = App(scene(self.folder.name))
+            wait("the first run", self.app.run_done)
+        try:
+            least_of(test, 3, self.app)
+        except Exception:
+            self.close()
+            raise
+
+    def close(self):
+        if self.app is not None:
+            self.app.quit()
+            self.folder.cleanup()
+            self.app = None
+
+
+def main(*entries):
+    """Runs the tests and prints TAP: functions of a folder of their own, and Shared ones of a window and a
+    folder. Arguments: none, or `only NAME...` or `without NAME...`."""
+    window_of = {test: entry for entry in entries if isinstance(entry, Shared) for test in entry.tests}
+    tests = [test for entry in entries for test in getattr(entry, "tests", [entry])]
     how, names = (sys.argv[1:2] or [None])[0], sys.argv[2:]
     unknown = set(names) - {test.__name__ for test in tests}
     assert how in (None, "only", "without") and not unknown, "arguments %r" % sys.argv[1:]
@@ -338,13 +367,18 @@ def main(*tests):
     print("1..%d" % len(tests))
     failed = 0
     for number, test in enumerate(tests, 1):
-        start = time.monotonic()
+        start, window = time.monotonic(), window_of.get(test)
         try:
-            least_of(test, 3)
+            if window is None:
+                least_of(test, 3)
+            else:
+                window.run(test)
             print("ok %d - %s" % (number, test.__name__))
             print("# %.1f s" % (time.monotonic() - start), flush=True)
         except Exception:
             failed += 1
             print("not ok %d - %s" % (number, test.__name__))
             print("# %s" % traceback.format_exc().replace("\n", "\n# "), flush=True)
+        if window is not None and window is not window_of.get((tests + [None])[number]):
+            window.close()
     sys.exit(1 if failed else 0)

@@ -3,7 +3,7 @@ import os
 import struct
 import subprocess
 
-from harness import COMMAND, App, main, scene, wait
+from harness import COMMAND, App, Shared, main, scene, wait
 
 
 def open_dialog(app, path, kind, view=None):
@@ -21,83 +21,86 @@ def export_button(app):
         app.SENSITIVE)][-1]
 
 
-def a_picture(folder):
+def close_dialog(app):
+    # The window has a button of that name too.
+    app.act(app.all("push button", "Close")[-1], "click")
+    wait("the dialog gone", lambda: not app.has("combo box", "Format"))
+
+
+def a_picture(app, folder):
     path = os.path.join(folder, "loop.png")
-    with App(scene(folder)) as app:
-        open_dialog(app, path, "Picture, PNG", "Dashboard")
-        app.act(export_button(app), "click")
-        wait("the result", lambda: app.label(r"^loop\.png is written"))
-        with open(path, "rb") as file:
-            head = file.read(24)
-        assert head[:8] == b"\x89PNG\r\n\x1a\n"
-        assert struct.unpack(">II", head[16:24]) == (1920, 1080)
-        # A second export of the same name asks first.
-        app.act(export_button(app), "click")
-        app.press("push button", "Keep")
-        assert os.path.exists(path)
+    open_dialog(app, path, "Picture, PNG", "Dashboard")
+    app.act(export_button(app), "click")
+    wait("the result", lambda: app.label(r"^loop\.png is written"))
+    with open(path, "rb") as file:
+        head = file.read(24)
+    assert head[:8] == b"\x89PNG\r\n\x1a\n"
+    assert struct.unpack(">II", head[16:24]) == (1920, 1080)
+    # A second export of the same name asks first.
+    app.act(export_button(app), "click")
+    app.press("push button", "Keep")
+    assert os.path.exists(path)
+    close_dialog(app)
 
 
-def a_film(folder):
+def a_film(app, folder):
     path = os.path.join(folder, "cycle.mp4")
-    with App(scene(folder)) as app:
-        open_dialog(app, path, "Movie, MP4", "Axial section")
-        app.spin("Width", 320)
-        app.spin("Height", 180)
-        app.spin("Frames per second", 10)
-        app.spin("Duration", 2)
-        app.act(export_button(app), "click")
-        wait("the result", lambda: app.label(r"^cycle\.mp4 is written: 20 frames"))
+    open_dialog(app, path, "Movie, MP4", "Axial section")
+    app.spin("Width", 320)
+    app.spin("Height", 180)
+    app.spin("Frames per second", 10)
+    app.spin("Duration", 2)
+    app.act(export_button(app), "click")
+    wait("the result", lambda: app.label(r"^cycle\.mp4 is written: 20 frames"))
+    close_dialog(app)
     probe = subprocess.run(["ffprobe", "-v", "error", "-count_frames", "-select_streams", "v",
                             "-show_entries", "stream=codec_name,pix_fmt,nb_read_frames,width",
                             "-of", "csv=p=0", path], capture_output=True, text=True, check=True)
     assert probe.stdout.strip() == "h264,320,yuv420p,20", probe.stdout
 
 
-def a_sequence(folder):
+def a_sequence(app, folder):
     path = os.path.join(folder, "cycle.png")
-    with App(scene(folder)) as app:
-        open_dialog(app, path, "Pictures of a movie, PNG", "Axial section")
-        app.spin("Width", 320)
-        app.spin("Height", 180)
-        app.spin("Frames per second", 10)
-        app.choose("From", "Stage B")
-        app.choose("To", "Stage C")
-        app.choose("Pace", "at a speed of")
-        app.spin("Speed", 20)
-        app.act(export_button(app), "click")
-        # B to C lasts 9.9 s: half a second of film.
-        wait("the result", lambda: app.label(r"^5 pictures are written"))
+    open_dialog(app, path, "Pictures of a movie, PNG", "Axial section")
+    app.spin("Width", 320)
+    app.spin("Height", 180)
+    app.spin("Frames per second", 10)
+    app.choose("From", "Stage B")
+    app.choose("To", "Stage C")
+    app.choose("Pace", "at a speed of")
+    app.spin("Speed", 20)
+    app.act(export_button(app), "click")
+    # B to C lasts 9.9 s: half a second of film.
+    wait("the result", lambda: app.label(r"^5 pictures are written"))
     names = sorted(name for name in os.listdir(folder) if name.startswith("cycle-"))
     assert names == [f"cycle-{i:04d}.png" for i in range(1, 6)], names
+    close_dialog(app)
 
 
-def a_cancelled_film(folder):
+def a_cancelled_film(app, folder):
     path = os.path.join(folder, "cycle.mp4")
-    with App(scene(folder)) as app:
-        open_dialog(app, path, "Movie, MP4", "Dashboard")
-        app.spin("Duration", 600)
-        app.watch_latency()
-        app.act(export_button(app), "click")
-        bar = app.find("progress bar", "Progress of the export")
-        wait("progress", lambda: bar.queryValue().currentValue > 0)
-        app.check_latency("a film is made")
-        app.press("push button", "Cancel")
-        text = wait("the result", lambda: app.label(r"^Cancelled: "))
-        assert "partial" in text, text
-        # The file is there, playable and short; the window goes on.
-        assert 0 < os.path.getsize(path) < 50e6
-        # The window has a button of that name too.
-        app.act(app.all("push button", "Close")[-1], "click")
-        wait("the dialog gone", lambda: not app.has("combo box", "Format"))
-        assert app.run_done()
+    open_dialog(app, path, "Movie, MP4", "Dashboard")
+    app.spin("Duration", 600)
+    app.watch_latency()
+    app.act(export_button(app), "click")
+    bar = app.find("progress bar", "Progress of the export")
+    wait("progress", lambda: bar.queryValue().currentValue > 0)
+    app.check_latency("a film is made")
+    app.press("push button", "Cancel")
+    text = wait("the result", lambda: app.label(r"^Cancelled: "))
+    assert "partial" in text, text
+    # The file is there, playable and short; the window goes on.
+    assert 0 < os.path.getsize(path) < 50e6
+    close_dialog(app)
+    assert app.run_done()
     assert not [name for name in os.listdir(folder) if "tmp" in name or name.startswith(".")]
 
 
-def a_place_that_cannot_be_written(folder):
-    with App(scene(folder)) as app:
-        open_dialog(app, "/proc/nowhere/loop.png", "Picture, PNG")
-        app.act(export_button(app), "click")
-        wait("the reason", lambda: app.label(r"^Nothing was written: "))
+def a_place_that_cannot_be_written(app, _folder):
+    open_dialog(app, "/proc/nowhere/loop.png", "Picture, PNG")
+    app.act(export_button(app), "click")
+    wait("the reason", lambda: app.label(r"^Nothing was written: "))
+    close_dialog(app)
 
 
 def a_report(folder):
@@ -134,5 +137,4 @@ def a_report(folder):
 
 
 if __name__ == "__main__":
-    main(a_picture, a_film, a_sequence, a_cancelled_film, a_place_that_cannot_be_written,
-         a_report)
+    main(Shared(a_picture, a_film, a_sequence, a_cancelled_film, a_place_that_cannot_be_written), a_report)

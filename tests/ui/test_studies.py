@@ -7,7 +7,7 @@ import re
 import sqlite3
 import subprocess
 
-from harness import ASSETS, COMMAND, App, main, scene, wait
+from harness import ASSETS, COMMAND, App, Shared, main, scene, wait
 
 
 def open_studies(app):
@@ -16,56 +16,52 @@ def open_studies(app):
     return app.find("chart", "Study")
 
 
-def a_study_of_the_document(folder):
+def a_study_of_the_document(app, folder):
     path = os.path.join(folder, "law.png")
-    with App(scene(folder)) as app:
-        chart = open_studies(app)
-        app.choose("Study", "Film law from our own solutions")
-        wait("the law", lambda: "ours, central\t3.8" in (chart.description or ""))
-        app.field("Picture").queryEditableText().setTextContents(path)
-        app.press("push button", "Write Picture")
-        wait("the result", lambda: app.label(r"^law\.png is written\.$"))
-        with open(path, "rb") as file:
-            assert file.read(8) == b"\x89PNG\r\n\x1a\n"
-        # One that takes seconds, so that it can be looked at while it is computed.
-        app.choose("Study", "Leak over squeeze")
-        wait("the leak", lambda: (chart.description or "").startswith("Leak over squeeze")
-             and not app.label(r"^Computing"))
-        # A change of values marks it and computes nothing by itself.
-        app.edit("Viscosity", "0.3 mPa.s")
-        wait("the mark", lambda: app.label(r"^Values have changed: the study shown is of earlier"))
-        app.press("push button", "Compute Again")
-        wait("the former one named", lambda: app.label(
-            r"^Computing: Leak over squeeze.*\. The picture is of the study before\.$")
-            and "of the one before" in chart.description)
-        wait("no mark", lambda: not app.label(r"^(Values have changed: the study|Computing)"))
+    chart = open_studies(app)
+    app.choose("Study", "Film law from our own solutions")
+    wait("the law", lambda: "ours, central\t3.8" in (chart.description or ""))
+    app.field("Picture").queryEditableText().setTextContents(path)
+    app.press("push button", "Write Picture")
+    wait("the result", lambda: app.label(r"^law\.png is written\.$"))
+    with open(path, "rb") as file:
+        assert file.read(8) == b"\x89PNG\r\n\x1a\n"
+    # One that takes a second, so that it can be looked at while it is computed.
+    app.choose("Study", "Fitment models side by side")
+    wait("the models", lambda: (chart.description or "").startswith("Fitment models side by side")
+         and not app.label(r"^Computing"))
+    # A change of values marks it and computes nothing by itself.
+    app.edit("Viscosity", "0.3 mPa.s")
+    wait("the mark", lambda: app.label(r"^Values have changed: the study shown is of earlier"))
+    app.press("push button", "Compute Again")
+    wait("the former one named", lambda: app.label(
+        r"^Computing: Fitment models side by side.*\. The picture is of the study before\.$")
+        and "of the one before" in chart.description)
+    wait("no mark", lambda: not app.label(r"^(Values have changed: the study|Computing)"))
 
 
-def a_study_can_be_cancelled(folder):
-    with App(scene(folder)) as app:
-        open_studies(app)
-        app.watch_latency()
-        app.choose("Study", "Leak over squeeze")
-        wait("enough to judge by", lambda: app.latency()["samples"] > 60)
-        app.press("push button", "Cancel")
-        wait("the end", lambda: app.label(r"^No study: the study was cancelled"))
-        app.find("push button", "Compute Again")
-        app.check_latency("a study is computed")
+def a_study_can_be_cancelled(app, _folder):
+    open_studies(app)
+    app.watch_latency()
+    app.choose("Study", "Leak over squeeze")
+    wait("enough to judge by", lambda: app.latency()["samples"] > 60)
+    app.press("push button", "Cancel")
+    wait("the end", lambda: app.label(r"^No study: the study was cancelled"))
+    app.find("push button", "Compute Again")
+    app.check_latency("a study is computed")
 
 
-def glands_of_both_seals(folder):
-    with App(scene(folder)) as app:
-        wait("the first run", app.run_done)
-        app.unfold("Glands, both seals")
-        app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 15\.5\s% tight, customary 15 to 25"))
-        app.find("label", re.compile(r"^Extrusion gap outer 0\.206\smm .* above, customary 0\.05 to 0\.13"))
-        # A smaller inner ring only, judged by the row of 1.78 mm of the gland tables as well.
-        app.unfold("Inner seal only")
-        app.edit("Inner seal: Section diameter", "1.56 mm")
-        app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 12\.8\s% below"))
-        # The tables have no section within an eighth of 1.5 mm: there is no judgement of that ring.
-        app.edit("Inner seal: Section diameter", "1.5 mm")
-        app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 9\.33\s% not judged"))
+def glands_of_both_seals(app, _folder):
+    app.unfold("Glands, both seals")
+    app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 15\.5\s% tight, customary 15 to 25"))
+    app.find("label", re.compile(r"^Extrusion gap outer 0\.206\smm .* above, customary 0\.05 to 0\.13"))
+    # A smaller inner ring only, judged by the row of 1.78 mm of the gland tables as well.
+    app.unfold("Inner seal only")
+    app.edit("Inner seal: Section diameter", "1.56 mm")
+    app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 12\.8\s% below"))
+    # The tables have no section within an eighth of 1.5 mm: there is no judgement of that ring.
+    app.edit("Inner seal: Section diameter", "1.5 mm")
+    app.find("label", re.compile(r"^Squeeze outer 15\.5\s% inner 9\.33\s% not judged"))
 
 
 def return_margin(path, *settings):
@@ -109,19 +105,17 @@ def propellants_are_swapped(folder):
         app.find("chart", "Force and displacement")
 
 
-def the_thesis_is_computed(folder):
+def the_thesis_is_computed(app, _folder):
     """A table and a figure of the thesis, whatever the document; one that is chosen meanwhile counts."""
-    with App(scene(folder)) as app:
-        wait("the first run", app.run_done)
-        app.key("ctrl+5")
-        wait("the first table", lambda: app.label(r"(?s)^Table 2\.1.*agrees"))
-        app.choose("Table or figure", "Figure 7.8: film over the sliding speed")
-        app.choose("Table or figure", "Figure 6.5: full Sommerfeld condition")
-        chart = app.find("chart", "Figure 6.5: full Sommerfeld condition")
-        assert "Half Sommerfeld" in chart.description, chart.description
-        wait("its text", lambda: app.label(r"(?s)^Figure 6\.5"))
-        app.key("ctrl+1")
-        app.find("chart", "Force and displacement")
+    app.key("ctrl+5")
+    wait("the first table", lambda: app.label(r"(?s)^Table 2\.1.*agrees"))
+    app.choose("Table or figure", "Figure 7.8: film over the sliding speed")
+    app.choose("Table or figure", "Figure 6.5: full Sommerfeld condition")
+    chart = app.find("chart", "Figure 6.5: full Sommerfeld condition")
+    assert "Half Sommerfeld" in chart.description, chart.description
+    wait("its text", lambda: app.label(r"(?s)^Figure 6\.5"))
+    app.key("ctrl+1")
+    app.find("chart", "Force and displacement")
 
 
 def a_loop_is_fitted(folder):
@@ -220,5 +214,5 @@ def a_better_design_is_found(folder):
 
 
 if __name__ == "__main__":
-    main(a_better_design_is_found, answers_of_a_design_are_kept, the_thesis_is_computed, a_loop_is_fitted,
-         propellants_are_swapped, a_study_of_the_document, a_study_can_be_cancelled, glands_of_both_seals)
+    main(a_better_design_is_found, answers_of_a_design_are_kept, a_loop_is_fitted, propellants_are_swapped,
+         Shared(the_thesis_is_computed, a_study_can_be_cancelled, a_study_of_the_document, glands_of_both_seals))
