@@ -295,10 +295,10 @@ def effects_stand_beside_the_main_parameters(app, _folder):
 
 
 if __name__ == "__main__":
-    main(Shared(undo_and_redo, bad_values_stay_in_their_field,
-                values_that_do_not_go_together_are_told_at_their_field, help_of_the_parameter_that_is_edited,
-                effects_stand_beside_the_main_parameters, search_finds_parameters,
-                edit_with_a_unit_changes_the_breakaway_force),
+    main(Shared(undo_and_redo),
+         Shared(bad_values_stay_in_their_field, values_that_do_not_go_together_are_told_at_their_field,
+                help_of_the_parameter_that_is_edited, effects_stand_beside_the_main_parameters,
+                search_finds_parameters, edit_with_a_unit_changes_the_breakaway_force),
          a_file_whose_values_do_not_go_together_opens, drawn_groove_is_taken_back,
          saved_values_come_back, one_run_is_shown_and_values_keep_their_digits,
          unsaved_changes_survive_a_crash, closing_asks_about_changes, broken_files_are_told_in_one_dialog)
