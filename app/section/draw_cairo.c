@@ -1,6 +1,6 @@
 // Item by item. The hatch is drawn as lines clipped to its polygon, so that SVG and PDF stay small
-// and sharp. A mesh is painted triangle by triangle with a hairline of its own colour against
-// seams; a rectangle-shaped mesh (a legend) as a linear gradient.
+// and sharp. A field is painted as a mesh pattern, a legend (a mesh that is a rectangle) as a
+// linear gradient, and the shaded cells of a cutaway one by one.
 #include "app/section/draw_cairo.h"
 
 #include <glib.h>
@@ -111,29 +111,30 @@ static void draw_isolines(cairo_t *cr, const SbDrawItem *item, const SbPoint *po
   cairo_stroke(cr);
 }
 
-static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
-                      const float *scalars) {
-  // Two triangles on one rectangle are a legend: a gradient along x.
-  if (item->count == 6 && !item->shaded) {
-    cairo_pattern_t *gradient = cairo_pattern_create_linear(points[0].x, 0.0, points[1].x, 0.0);
-    for (int i = 0; i <= 32; i++) {
-      SbColor c = map_color(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
-      cairo_pattern_add_color_stop_rgb(gradient, i / 32.0, c.r, c.g, c.b);
-    }
-    cairo_rectangle(cr, points[0].x, points[0].y, (points[2].x - points[0].x),
-                    (points[2].y - points[0].y));
-    cairo_set_source(cr, gradient);
-    cairo_fill(cr);
-    cairo_pattern_destroy(gradient);
-    return;
+// The colours of a map along a rectangle, from its left to its right end: a legend.
+static void draw_legend(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
+                        const float *scalars) {
+  cairo_pattern_t *gradient = cairo_pattern_create_linear(points[0].x, 0.0, points[1].x, 0.0);
+  for (int i = 0; i <= 32; i++) {
+    SbColor c = map_color(item, scalars[0] + (scalars[1] - scalars[0]) * (float)i / 32.0f);
+    cairo_pattern_add_color_stop_rgb(gradient, i / 32.0, c.r, c.g, c.b);
   }
+  cairo_rectangle(cr, points[0].x, points[0].y, points[2].x - points[0].x,
+                  points[2].y - points[0].y);
+  cairo_set_source(cr, gradient);
+  cairo_fill(cr);
+  cairo_pattern_destroy(gradient);
+}
+
+// Cells of one colour, with a hairline of this colour against seams.
+static void draw_cells(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
+                       const float *scalars) {
   cairo_set_line_width(cr, 0.4);
   cairo_set_dash(cr, NULL, 0, 0);
   cairo_set_line_join(cr, CAIRO_LINE_JOIN_ROUND);
   for (size_t i = 0; i + 2 < item->count; i += 3) {
-    // Two triangles of a shaded cell are one quadrilateral.
-    bool pair = item->shaded && i + 5 < item->count &&
-                memcmp(points + i, points + i + 3, sizeof *points) == 0 &&
+    // Two triangles of a cell are one quadrilateral.
+    bool pair = i + 5 < item->count && memcmp(points + i, points + i + 3, sizeof *points) == 0 &&
                 memcmp(points + i + 2, points + i + 4, sizeof *points) == 0;
     float mean = (scalars[i] + scalars[i + 1] + scalars[i + 2]) / 3.0f;
     if (pair) {
@@ -147,6 +148,84 @@ static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbPoint *points
     set_color(cr, map_color(item, mean));
     cairo_fill_preserve(cr);
     cairo_stroke(cr);
+  }
+}
+
+// The rectangle around points.
+static SbRect box_of(const SbPoint *points, size_t count) {
+  SbPoint low = {INFINITY, INFINITY}, high = {-INFINITY, -INFINITY};
+  for (size_t i = 0; i < count; i++) {
+    low = (SbPoint){fmin(low.x, points[i].x), fmin(low.y, points[i].y)};
+    high = (SbPoint){fmax(high.x, points[i].x), fmax(high.y, points[i].y)};
+  }
+  return (SbRect){low.x, low.y, high.x - low.x, high.y - low.y};
+}
+
+// Triangles inside of `within` with colours interpolated between those of their corners. (The
+// fourth corner of a patch of three sides is its first, so that the colours are linear.)
+static cairo_pattern_t *mesh_pattern(const SbDrawItem *item, const SbPoint *points,
+                                     const float *scalars, const SbRect *within) {
+  cairo_pattern_t *mesh = cairo_pattern_create_mesh();
+  for (size_t i = 0; i + 2 < item->count; i += 3) {
+    const SbRect box = box_of(points + i, 3);
+    if (box.x > within->x + within->width || box.x + box.width < within->x ||
+        box.y > within->y + within->height || box.y + box.height < within->y) {
+      continue;
+    }
+    cairo_mesh_pattern_begin_patch(mesh);
+    for (unsigned k = 0; k < 3; k++) {
+      const SbColor c = map_color(item, scalars[i + k]);
+      cairo_mesh_pattern_line_to(mesh, points[i + k].x, points[i + k].y);
+      cairo_mesh_pattern_set_corner_color_rgb(mesh, k, c.r, c.g, c.b);
+    }
+    cairo_mesh_pattern_end_patch(mesh);
+  }
+  return mesh;
+}
+
+// Makes the source of `cr` a picture of it inside of `within`, of three pixels per unit: SVG has no
+// mesh patterns, and cairo would turn everything near them into pixels.
+static void rasterise_source(cairo_t *cr, const SbRect *within) {
+  const double scale = 3;
+  cairo_surface_t *image = cairo_image_surface_create(
+      CAIRO_FORMAT_ARGB32, (int)ceil(scale * within->width), (int)ceil(scale * within->height));
+  cairo_surface_set_device_scale(image, scale, scale);
+  cairo_surface_set_device_offset(image, -scale * within->x, -scale * within->y);
+  cairo_t *pixels = cairo_create(image);
+  cairo_set_source(pixels, cairo_get_source(cr));
+  cairo_paint(pixels);
+  cairo_destroy(pixels);
+  cairo_set_source_surface(cr, image, 0, 0);
+  cairo_surface_destroy(image);
+}
+
+static void draw_field(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
+                       const float *scalars) {
+  SbRect box = box_of(points, item->count);
+  double x0, y0, x1, y1;
+  cairo_save(cr);
+  cairo_rectangle(cr, box.x, box.y, box.width, box.height);
+  cairo_clip(cr);
+  cairo_clip_extents(cr, &x0, &y0, &x1, &y1);
+  box = (SbRect){x0, y0, x1 - x0, y1 - y0};
+  cairo_pattern_t *mesh = mesh_pattern(item, points, scalars, &box);
+  cairo_set_source(cr, mesh);
+  if (cairo_surface_get_type(cairo_get_target(cr)) == CAIRO_SURFACE_TYPE_SVG) {
+    rasterise_source(cr, &box);
+  }
+  cairo_paint(cr);
+  cairo_pattern_destroy(mesh);
+  cairo_restore(cr);
+}
+
+static void draw_mesh(cairo_t *cr, const SbDrawItem *item, const SbPoint *points,
+                      const float *scalars) {
+  if (item->shaded) {
+    draw_cells(cr, item, points, scalars);
+  } else if (item->count == 6) {
+    draw_legend(cr, item, points, scalars);
+  } else {
+    draw_field(cr, item, points, scalars);
   }
   if (item->isolines > 0) {
     draw_isolines(cr, item, points, scalars);

@@ -4,6 +4,8 @@
 #include "app/section/section.h"
 #include "engine/contact/fit.h"
 
+#include <cairo-pdf.h>
+#include <cairo-svg.h>
 #include <glib.h>
 #include <math.h>
 #include <string.h>
@@ -346,6 +348,79 @@ static void test_no_growth(void) {
   fixture_close(&f);
 }
 
+static cairo_status_t write_bytes(void *data, const unsigned char *bytes, unsigned length) {
+  g_string_append_len(data, (const char *)bytes, length);
+  return CAIRO_STATUS_SUCCESS;
+}
+
+// Returns how often a text is in `in`, which may hold bytes of value 0.
+static size_t count(const GString *in, const char *text) {
+  const size_t length = strlen(text);
+  size_t found = 0;
+  for (size_t i = 0; i + length <= in->len; i++) {
+    found += memcmp(in->str + i, text, length) == 0;
+  }
+  return found;
+}
+
+// Paints a mesh of two squares (x from 0 to 20, from 40 to 60) with scalars that rise from 0 at x =
+// 0 to 1 at x = 60.
+static void paint_mesh(cairo_t *cr, const SbDrawMap *map) {
+  SbPoint point[12];
+  float scalar[12];
+  for (int i = 0; i < 12; i++) {
+    static const int right[6] = {0, 1, 1, 0, 1, 0}, low[6] = {0, 0, 1, 0, 1, 1};
+    point[i] = (SbPoint){40.0 * (i / 6) + 20 * right[i % 6], 20 * low[i % 6]};
+    scalar[i] = (float)(point[i].x / 60);
+  }
+  SbDrawList list;
+  sb_draw_list_init(&list);
+  sb_draw_list_clear(&list, 60, 20, (SbColor){1, 1, 1, 1});
+  sb_draw_mesh(&list, point, scalar, 12, map, 0, 1);
+  SbText *text = sb_text_create();
+  sb_draw_list_to_cairo(&list, text, cr);
+  sb_text_destroy(text);
+  sb_draw_list_finish(&list);
+}
+
+// A field is smooth: each pixel of a linear field has the colour of its middle, to 4 levels of 255
+// (a pixel is 4.25 levels wide; a triangle of one colour is up to 42 levels off). PDF has it as a
+// mesh, without pixels; SVG has one picture, which covers the field alone.
+static void test_smooth_field(void) {
+  SbDrawMap map;
+  for (int i = 0; i < 256; i++) {
+    map.entry[i] = (SbColor){i / 255.0, 0, 1 - i / 255.0, 1};
+  }
+  cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, 60, 20);
+  cairo_t *cr = cairo_create(surface);
+  paint_mesh(cr, &map);
+  cairo_surface_flush(surface);
+  const unsigned char *data = cairo_image_surface_get_data(surface);
+  for (int y = 1; y < 19; y++) {
+    const uint32_t *row =
+        (const uint32_t *)(const void *)(data + y * cairo_image_surface_get_stride(surface));
+    for (int x = 1; x < 59; x++) {
+      const double red = x > 21 && x < 38 ? 255 : 255 * (x + 0.5) / 60;
+      if (x < 19 || (x > 21 && x < 38) || x > 41) { // not at the squares' ends
+        g_assert_cmpfloat_with_epsilon((double)(row[x] >> 16 & 255), red, 4);
+      }
+    }
+  }
+  cairo_destroy(cr);
+  cairo_surface_destroy(surface);
+  for (int svg = 0; svg < 2; svg++) {
+    g_autoptr(GString) out = g_string_new(NULL);
+    surface = svg ? cairo_svg_surface_create_for_stream(write_bytes, out, 60, 20)
+                  : cairo_pdf_surface_create_for_stream(write_bytes, out, 60, 20);
+    cr = cairo_create(surface);
+    paint_mesh(cr, &map);
+    cairo_destroy(cr);
+    cairo_surface_destroy(surface);
+    g_assert_cmpuint(count(out, svg ? "<image" : "/ShadingType 7"), ==, 1);
+    g_assert_cmpuint(count(out, svg ? "width=\"180\" height=\"60\"" : "/Subtype /Image"), ==, svg);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/section/low-picture", test_low_picture);
@@ -358,5 +433,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/section/ring-extremes", test_ring_extremes);
   g_test_add_func("/section/labels", test_labels);
   g_test_add_func("/section/no-growth", test_no_growth);
+  g_test_add_func("/section/smooth-field", test_smooth_field);
   return g_test_run();
 }
