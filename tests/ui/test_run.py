@@ -115,6 +115,16 @@ def scrub_to_stage_c(app, _folder):
     wait("the middle", lambda: re.match(r"stage [D-E]", app.status()))
 
 
+def the_space_bar_plays(app, _folder):
+    """In a window as it opens, whatever its buttons are; again, it pauses."""
+    app.find("push button", "Play")
+    app.key("space")
+    app.find("push button", "Pause")
+    assert app.run_done(), "the run was begun again or stopped"
+    app.key("space")
+    app.find("push button", "Play")
+
+
 def playback_moves_the_playhead(app, _folder):
     # Found before: a walk through the whole window takes its time while it draws.
     button = app.find("push button", "Play")
@@ -133,5 +143,5 @@ def playback_moves_the_playhead(app, _folder):
 
 
 if __name__ == "__main__":
-    main(Shared(scrub_to_stage_c, playback_moves_the_playhead, a_failed_run_keeps_the_pictures_and_says_why,
-                the_newest_edit_wins, a_long_run_grows_and_can_be_cancelled), a_long_run_ends_by_itself)
+    main(Shared(the_space_bar_plays, scrub_to_stage_c, playback_moves_the_playhead,
+                a_failed_run_keeps_the_pictures_and_says_why, the_newest_edit_wins, a_long_run_grows_and_can_be_cancelled), a_long_run_ends_by_itself)

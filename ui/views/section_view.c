@@ -630,6 +630,11 @@ void sb_section_view_listen(GtkWidget *widget,
   sb_section_handles_listen(view->handles, chosen, data);
 }
 
+void sb_section_view_focus(GtkWidget *widget) {
+  View *view = g_object_get_data(G_OBJECT(widget), "view");
+  gtk_widget_grab_focus(view->area);
+}
+
 gboolean sb_section_view_key(GtkWidget *widget, const GdkEventKey *event) {
   View *view = g_object_get_data(G_OBJECT(widget), "view");
   return gtk_widget_has_focus(view->area) && sb_section_handles_key(view->handles, event);

@@ -627,7 +627,7 @@ static void sb_window_init(SbWindow *window) {
     gtk_window_maximize(GTK_WINDOW(window));
   }
   refresh(window);
-  gtk_window_set_focus(GTK_WINDOW(window), window->run_button);
+  sb_section_view_focus(window->section);
 }
 
 GtkWidget *sb_window_new(SbApplication *application) {
