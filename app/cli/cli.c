@@ -6,6 +6,7 @@
 #include "app/base/output.h"
 #include "app/cli/wrap.h"
 #include "app/document/shipped.h"
+#include "app/export/run_tables.h"
 #include "app/lazy/lazy.h"
 #include "app/run/process.h"
 #include "app/table/json.h"
@@ -532,12 +533,9 @@ void sb_cli_rows(const SbResultRow *row, const void *of) {
 }
 
 void sb_cli_warnings(const SbWarnings *warnings) {
-  for (size_t i = 0; i < warnings->count; i++) {
-    const SbWarning *warning = &warnings->item[i];
-    printf("%s  %s: %s%s%s%s\n", i == 0 ? "Warnings\n" : "", warning->code, warning->text,
-           warning->input != 0 ? " (" : "", sb_input_key(warning->input),
-           warning->input != 0 ? ")" : "");
-  }
+  g_autoptr(SbTable) table = sb_run_warnings(warnings, NULL);
+  fputs(warnings->count > 0 ? "Warnings\n" : "", stdout);
+  (void)sb_cli_table(table, NULL);
 }
 
 // ---- Interrupts ----

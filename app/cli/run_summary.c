@@ -4,6 +4,7 @@
 #include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/cli/wrap.h"
+#include "app/export/run_tables.h"
 #include "app/session/verdict_text.h"
 
 #include <limits.h>
@@ -26,23 +27,6 @@ static const char *const key_figures[] = {
     "seals.outer.load_N",         "seals.inner.load_N",  "seals.outer.pressure_peak_Pa",
     "cycle.leakage_per_cycle_m3", "cycle.energy_loss_J",
 };
-
-char *sb_cli_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict) {
-  const SbVerdict *of = &verdict->of;
-  g_autoptr(GString) text = g_string_new(sb_verdict_answer(of->ok));
-  if (!isnan(of->value)) {
-    g_autofree char *label = sb_figure_label(of->figure);
-    g_autofree char *figure = sb_verdict_figure_plain(summary, kind, of);
-    g_string_append_printf(text, ": %s %s", label, figure);
-  }
-  if (of->reason[0] != '\0') {
-    g_string_append_printf(text, " (%s)", of->reason);
-  }
-  if (verdict->name != NULL) {
-    g_string_append_printf(text, ", case %s", verdict->name);
-  }
-  return g_string_free(g_steal_pointer(&text), FALSE);
-}
 
 // ---- Items: lines that may be wrapped ----
 
@@ -102,7 +86,7 @@ static int print_items(const GPtrArray *items, int columns, int room) {
 static void add_verdict(GPtrArray *items, const SbSummary *summary, const SbCaseVerdict *verdict) {
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     if (verdict[kind].of.figure >= 0) {
-      g_autofree char *text = sb_cli_verdict_text(summary, kind, &verdict[kind]);
+      g_autofree char *text = sb_run_verdict_text(summary, kind, &verdict[kind]);
       add_item(items, sb_verdict_word(kind), VERDICT_WIDTH, text);
     }
   }

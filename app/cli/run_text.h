@@ -25,12 +25,6 @@ enum { SB_CLI_SUMMARY_LINES = 24 };
 // The loop takes the remaining lines; --no-plot omits it.
 void sb_cli_run_summary(const SbCliRunText *of);
 
-// Prints all figures of short tables (figures.def), the stages, the verdict, the warnings and the
-// state of the solvers, then the comparison with a measured loop and, if charts are drawn, the
-// loop.
+// Prints the tables of app/export/run_tables.h (figures, stages, verdict, warnings) and the state
+// of the solvers, then the comparison with a measured loop and, if charts are drawn, the loop.
 void sb_cli_run_table(const SbCliRunText *of);
-
-// Returns the answer to question `kind` (of SbVerdictKind), which must have a deciding figure: the
-// figure with its limit, the reason and the case, on one line. `verdict` is the answer of that
-// question.
-char *sb_cli_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict);

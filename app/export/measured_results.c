@@ -62,14 +62,14 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
 
 SbTable *sb_measured_stages(const SbComparison *comparison) {
   static const SbTableColumn columns[] = {
-      {.layout = "  %-10s"},
-      {.key = "measured_N", .layout = "%12s", .head = "measured"},
-      {.key = "model_N", .layout = "%12s", .head = "model"},
-      {.key = "difference_N", .layout = "%12s", .head = "difference"},
+      {.layout = "  %-10s", .label = "Stage", .width = 1},
+      {"measured_N", "%12s", "Measured", "measured", 1.2},
+      {"model_N", "%12s", "Model", "model", 1.2},
+      {"difference_N", "%12s", "Difference", "difference", 1.2},
       {.key = "measured_m"},
       {.key = "model_m"},
       {.key = "measured_deviation_N"},
-      {.key = "reason", .layout = "  %s"},
+      {"reason", "  %s", "", .width = 3},
   };
   SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {

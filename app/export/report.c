@@ -14,8 +14,10 @@
 #include "app/chart/signal.h"
 #include "app/chart/study.h"
 #include "app/chart/timeline.h"
+#include "app/export/measured_results.h"
 #include "app/export/pdf.h"
 #include "app/export/render.h"
+#include "app/export/run_tables.h"
 #include "app/section/painter.h"
 
 #include <math.h>
@@ -54,38 +56,6 @@ char *sb_report_foot(const char *files, const char *hash) {
                          day, hash);
 }
 
-// ---- Texts of figures ----
-
-char *sb_report_value(const SbSummary *summary, int index) {
-  const double value = sb_figure_value(summary, index);
-  return isnan(value) ? g_strdup(DASH)
-                      : sb_figure_format(index, value, sb_figure_error(summary, index));
-}
-
-char *sb_report_error(const SbSummary *summary, int index) {
-  const double error = sb_figure_error(summary, index);
-  char digits[SB_FORMAT_MAX];
-  if (isnan(sb_figure_value(summary, index)) || isnan(error)) {
-    return g_strdup("");
-  }
-  return error < 1e-9 ? g_strdup("rounding")
-                      : g_strdup_printf("%s\xc2\xa0%%", sb_format_digits(digits, 100 * error, 2));
-}
-
-char *sb_report_margin(int figure, double value, double error, double low, double high) {
-  const double below = value - low, above = high - value;
-  const double margin = fmin(below, above), limit = below < above ? low : high;
-  if (!isfinite(margin) || sb_figure(figure)->digits == 0) {
-    return g_strdup("");
-  }
-  // The limit is exact: the margin has the absolute error of the value.
-  g_autofree char *size =
-      sb_figure_format(figure, fabs(margin), margin != 0 ? fabs(error * value / margin) : 0);
-  g_autofree char *share =
-      limit != 0 ? g_strdup_printf(" (%.0f\xc2\xa0%%)", 100 * fabs(margin / limit)) : g_strdup("");
-  return g_strdup_printf("%s%s%s", margin < 0 ? "\xe2\x88\x92" : "", size, share);
-}
-
 static char *capital(const char *text) {
   char *out = g_strdup(text);
   out[0] = g_ascii_toupper(out[0]);
@@ -95,61 +65,33 @@ static char *capital(const char *text) {
 // ---- First page ----
 
 static void draw_verdict(SbReportPages *pages, const Scene *scene) {
-  static const SbReportColumn columns[] = {
-      {"Verdict", 1.1, SB_REPORT_WORDS},    {"", 0.7, SB_REPORT_ANSWER},
-      {"Decided by", 3.4, SB_REPORT_WORDS}, {"Value", 1.4, SB_REPORT_NUMBER},
-      {"Limit", 1.4, SB_REPORT_NUMBER},     {"Margin", 1.8, SB_REPORT_NUMBER},
-      {"Case", 1, SB_REPORT_WORDS}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
-  for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
-    const SbCaseVerdict *verdict = &scene->of->verdict[kind];
-    const SbVerdict *of = &verdict->of;
-    g_autofree char *name = capital(sb_verdict_name((SbVerdictKind)kind));
-    const bool known = of->figure >= 0, limited = known && isfinite(of->limit);
-    g_autofree char *label = known ? sb_figure_label(of->figure) : g_strdup("");
-    const char *reason = of->reason;
-    g_autofree char *why = !known && *reason == '\0'   ? g_strdup("no limit is set")
-                           : !known || *reason == '\0' ? g_strdup(known ? label : reason)
-                                                       : g_strdup_printf("%s: %s", label, reason);
-    const double error = known ? sb_figure_error(scene->summary, of->figure) : NAN;
-    g_autofree char *value = known ? sb_figure_format(of->figure, of->value, error) : g_strdup("");
-    g_autofree char *limit = limited ? sb_figure_given(of->figure, of->limit) : g_strdup("");
-    // On which side of the limit a value should be, the answer tells.
-    const bool above = (of->value >= of->limit) == (of->ok != SB_ANSWER_NO);
-    g_autofree char *margin =
-        limited ? sb_report_margin(of->figure, of->value, error, above ? of->limit : -INFINITY,
-                                   above ? INFINITY : of->limit)
-                : g_strdup("");
-    static const char *const answers[] = {DASH, "NO", "yes"};
-    const char *const cell[] = {name, answers[of->ok], why, value, limit, margin, verdict->name};
-    sb_report_row(pages, &table, cell, of->ok == SB_ANSWER_NO ? SB_REPORT_WRONG : SB_REPORT_PLAIN);
-  }
+  g_autoptr(SbTable) table = sb_run_verdict(scene->summary, scene->of->verdict);
+  sb_report_table(pages, table);
 }
 
-// All limits, not the deciding ones alone; of the scene itself.
+// All limits of the scene itself, not only those that decide.
 static void draw_limits(SbReportPages *pages, const Scene *scene) {
   const SbLimits *limits = sb_document_limits(scene->of->document);
-  static const SbReportColumn columns[] = {{"Limits of the scene itself", 4, SB_REPORT_WORDS},
-                                           {"Limit", 2, SB_REPORT_NUMBER},
-                                           {"Value", 1.6, SB_REPORT_NUMBER},
-                                           {"Margin", 2, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {{.label = "Limits of the scene itself", .width = 4},
+                                          {.label = "Limit", .width = 2},
+                                          {.label = "Value", .width = 1.6},
+                                          {.label = "Margin", .width = 2}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (size_t i = 0; i < limits->count; i++) {
     const SbLimit *limit = &limits->item[i];
-    const double value = sb_figure_value(scene->summary, limit->figure);
-    g_autofree char *label = sb_figure_label(limit->figure);
-    g_autofree char *text = sb_limit_format(limit->figure, limit->low, limit->high);
-    g_autofree char *shown = sb_report_value(scene->summary, limit->figure);
-    g_autofree char *margin =
-        sb_report_margin(limit->figure, value, sb_figure_error(scene->summary, limit->figure),
-                         limit->low, limit->high);
-    const bool beyond = value < limit->low || value > limit->high;
-    const char *const cell[] = {label, text, shown, margin};
-    sb_report_row(pages, &table, cell,
-                  beyond         ? SB_REPORT_WRONG
-                  : isnan(value) ? SB_REPORT_DOUBT
-                                 : SB_REPORT_PLAIN);
+    const int of = limit->figure;
+    const double value = sb_figure_value(scene->summary, of);
+    const double error = sb_figure_error(scene->summary, of);
+    sb_table_add(table,
+                 SB_CELLS(sb_cell_own(sb_figure_label(of)),
+                          sb_cell_shown(sb_limit_format(of, limit->low, limit->high)),
+                          sb_cell_shown(sb_run_value(scene->summary, of)),
+                          sb_cell_shown(sb_run_margin(of, value, error, limit->low, limit->high))));
+    sb_table_mark(table, value < limit->low || value > limit->high ? SB_TABLE_WRONG
+                         : isnan(value)                            ? SB_TABLE_DOUBT
+                                                                   : SB_TABLE_PLAIN);
   }
+  sb_report_table(pages, table);
 }
 
 static void draw_section(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
@@ -192,20 +134,21 @@ static void draw_notices(SbReportPages *pages, const Scene *scene) {
 
 // The cycle's figures that somebody wants large or small.
 static void draw_key_figures(SbReportPages *pages, const SbSummary *summary, bool rig) {
-  static const SbReportColumn columns[] = {{"Key figures", 4, SB_REPORT_WORDS},
-                                           {"Value", 2, SB_REPORT_NUMBER},
-                                           {"Error estimate", 2, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {{.label = "Key figures", .width = 4},
+                                          {.label = "Value", .width = 2},
+                                          {.label = "Error estimate", .width = 2}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     const SbFigure *figure = sb_figure(i);
     if (figure->brief && (rig || figure->better != SB_BETTER_NONE) &&
         !isnan(sb_figure_value(summary, i)) &&
         figure->group == (rig ? SB_GROUP_RIG : SB_GROUP_CYCLE) && figure->error != SB_BY_RESIDUAL) {
-      g_autofree char *value = sb_report_value(summary, i), *error = sb_report_error(summary, i);
-      const char *const cell[] = {figure->label, value, error};
-      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+      sb_table_add(table,
+                   SB_CELLS(sb_cell_text(figure->label), sb_cell_shown(sb_run_value(summary, i)),
+                            sb_cell_shown(sb_run_error(summary, i))));
     }
   }
+  sb_report_table(pages, table);
 }
 
 static void draw_summary(SbReportPages *pages, const Scene *scene) {
@@ -290,24 +233,11 @@ static char *newtons(double force) {
 }
 
 static void draw_measured(SbReportPages *pages, const SbComparison *comparison) {
-  static const SbReportColumn columns[] = {{"Stage", 1, SB_REPORT_WORDS},
-                                           {"Measured", 1.2, SB_REPORT_NUMBER},
-                                           {"Model", 1.2, SB_REPORT_NUMBER},
-                                           {"Difference", 1.2, SB_REPORT_NUMBER},
-                                           {"", 3, SB_REPORT_WORDS}};
   const SbMeasured *measured = comparison->measured;
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   g_autofree char *heading = g_strdup_printf("Measured: %s", measured->name);
   sb_report_heading(pages, heading, 120);
-  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
-    const SbMeasuredStage *stage = &measured->stage[s];
-    const double force = stage->found ? stage->force : NAN, model = comparison->model_force[s];
-    g_autofree char *first = newtons(force), *second = newtons(model);
-    g_autofree char *third = newtons(force - model);
-    const char *const cell[] = {sb_stage_name((SbStage)s), first, second, third,
-                                stage->found ? NULL : stage->reason};
-    sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
-  }
+  g_autoptr(SbTable) table = sb_measured_stages(comparison);
+  sb_report_table(pages, table);
   g_autofree char *rms = newtons(comparison->rms), *most = newtons(comparison->most);
   g_autofree char *mean = newtons(comparison->mean);
   g_autofree char *sum =
@@ -349,142 +279,37 @@ static void draw_cycle(SbReportPages *pages, const Scene *scene) {
 
 // ---- Figures ----
 
-// Those of the short table that belong to a group, behind a line that names them.
-static void add_figures(SbReportPages *pages, SbReportTable *table, const SbSummary *summary,
-                        SbFigureGroup group, const char *name, bool known) {
-  bool named = false;
-  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    const SbFigure *figure = sb_figure(i);
-    const char *reason = sb_figure_reason(summary, i);
-    if (!figure->brief || figure->group != group || (known && isnan(sb_figure_value(summary, i)))) {
-      continue;
-    }
-    const char *const head[] = {name, NULL, NULL, NULL};
-    if (!named) {
-      sb_report_row(pages, table, head, SB_REPORT_GROUP);
-      named = true;
-    }
-    g_autofree char *value = sb_report_value(summary, i), *error = sb_report_error(summary, i);
-    g_autofree char *why =
-        reason != NULL ? g_strdup_printf("not computed: %s", reason) : g_strdup(figure->help);
-    const char *const cell[] = {figure->label, value, error, why};
-    sb_report_row(pages, table, cell, SB_REPORT_PLAIN);
-  }
-}
-
-static void draw_stages(SbReportPages *pages, const SbSummary *summary) {
-  static const SbReportColumn columns[] = {{"Stage", 0.6, SB_REPORT_WORDS},
-                                           {"Time", 1, SB_REPORT_NUMBER},
-                                           {"Stem", 1, SB_REPORT_NUMBER},
-                                           {"Force", 1, SB_REPORT_NUMBER},
-                                           {"Event", 4, SB_REPORT_WORDS}};
-  static const char *const events[SB_STAGE_COUNT] = {"start",
-                                                     "first slip, the force at its peak",
-                                                     "the land's edge reaches the inner contact",
-                                                     "first contact with the stop",
-                                                     "first slip on the return",
-                                                     "the inner seal is in the bore again"};
-  static const char *const paths[] = {"time_s", "displacement_m", "force_N"};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
-  sb_report_heading(pages, "Stages", 160);
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    char *cell[5] = {g_strdup(sb_stage_name((SbStage)s))};
-    for (int k = 0; k < 3; k++) {
-      g_autofree char *path =
-          g_strdup_printf("cycle.stages.%s.%s", sb_stage_name((SbStage)s), paths[k]);
-      cell[1 + k] = sb_report_value(summary, sb_figure_find(path));
-    }
-    cell[4] = g_strdup(summary->stage[s].reached ? events[s] : "not reached");
-    sb_report_row(pages, &table, (const char *const *)cell, SB_REPORT_PLAIN);
-    for (int k = 0; k < 5; k++) {
-      g_free(cell[k]);
-    }
-  }
-}
-
-static void draw_seals(SbReportPages *pages, const SbSummary *summary) {
-  static const SbReportColumn columns[] = {{"Seals, in the middle of B\xe2\x80\x93"
-                                            "C",
-                                            3, SB_REPORT_WORDS},
-                                           {"Outer", 1.3, SB_REPORT_NUMBER},
-                                           {"Error", 1, SB_REPORT_NUMBER},
-                                           {"Inner", 1.3, SB_REPORT_NUMBER},
-                                           {"Error", 1, SB_REPORT_NUMBER},
-                                           {"", 2.6, SB_REPORT_WORDS}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
-  sb_report_heading(pages, "Seals", 160);
-  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    const SbFigure *figure = sb_figure(i);
-    if (!figure->brief || figure->group != SB_GROUP_SEAL || figure->seal != SB_OUTER) {
-      continue;
-    }
-    g_autofree char *path =
-        g_strconcat("seals.inner.", figure->path + strlen("seals.outer."), NULL);
-    const int inner = sb_figure_find(path);
-    const char *why = sb_figure_reason(summary, i), *why_inner = sb_figure_reason(summary, inner);
-    g_autofree char *note = why != NULL && g_strcmp0(why, why_inner) == 0 ? g_strdup(why)
-                            : why != NULL       ? g_strdup_printf("outer: %s", why)
-                            : why_inner != NULL ? g_strdup_printf("inner: %s", why_inner)
-                                                : g_strdup("");
-    g_autofree char *a = sb_report_value(summary, i), *b = sb_report_error(summary, i);
-    g_autofree char *c = sb_report_value(summary, inner), *d = sb_report_error(summary, inner);
-    const char *const cell[] = {figure->label, a, b, c, d, note};
-    sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
-  }
-  const char *const leak[] = {"Leak path", sb_leak_state_name(summary->seal[SB_OUTER].leak_state),
-                              NULL,        sb_leak_state_name(summary->seal[SB_INNER].leak_state),
-                              NULL,        NULL};
-  sb_report_row(pages, &table, leak, SB_REPORT_PLAIN);
-}
-
 static void draw_figures(SbReportPages *pages, const Scene *scene) {
-  static const SbReportColumn columns[] = {{"Figure", 2.5, SB_REPORT_WORDS},
-                                           {"Value", 1.4, SB_REPORT_NUMBER},
-                                           {"Error estimate", 1.3, SB_REPORT_NUMBER},
-                                           {"Meaning", 4.4, SB_REPORT_WORDS}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   const SbSummary *summary = scene->summary;
   sb_report_page(pages, false);
   sb_report_heading(pages, "Figures", 100);
-  add_figures(pages, &table, summary, SB_GROUP_CYCLE, "Cycle", scene->rig);
-  add_figures(pages, &table, summary, SB_GROUP_RIG, "Sliding plate", true);
-  add_figures(pages, &table, summary, SB_GROUP_DOSE, "Dose", true);
-  add_figures(pages, &table, summary, SB_GROUP_SHELF, "On the shelf", true);
-  add_figures(pages, &table, summary, SB_GROUP_PEOPLE, "Who can press it", true);
-  add_figures(pages, &table, summary, SB_GROUP_LIFE, "Life", true);
+  g_autoptr(SbTable) table = sb_run_figures(scene->of->run);
+  sb_report_table(pages, table);
   sb_report_skip(pages, 6);
   sb_report_text(pages,
                  "Error estimates are relative and cover discretisation and iteration, not the "
                  "choice of model. A figure without one has none of its own.",
                  SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   if (!scene->rig) {
-    draw_stages(pages, summary);
-    draw_seals(pages, summary);
+    sb_report_heading(pages, "Stages", 160);
+    g_autoptr(SbTable) stages = sb_run_stages(summary);
+    sb_report_table(pages, stages);
+    sb_report_heading(pages, "Seals", 160);
+    g_autoptr(SbTable) seals = sb_run_seals(summary);
+    sb_report_table(pages, seals);
   }
 }
 
 static void draw_warnings(SbReportPages *pages, const SbWarnings *warnings,
                           const SbDocument *document) {
-  static const SbReportColumn columns[] = {{"Finding", 6, SB_REPORT_WORDS},
-                                           {"Code", 1.8, SB_REPORT_WORDS},
-                                           {"Parameter", 2, SB_REPORT_WORDS}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
   sb_report_heading(pages, "Warnings and limits of validity", 60);
   const GPtrArray *notes = sb_document_notes(document);
   if (warnings->count == 0 && notes->len == 0) {
     sb_report_text(pages, "None: every model was within its range.", SB_TYPE_LABEL, 400,
                    SB_ROLE_INK);
   }
-  for (size_t i = 0; i < warnings->count; i++) {
-    const SbWarning *warning = &warnings->item[i];
-    const char *const cell[] = {warning->text, warning->code, sb_input_key(warning->input)};
-    sb_report_row(pages, &table, cell,
-                  sb_warning_is_serious(warning->code) ? SB_REPORT_DOUBT : SB_REPORT_PLAIN);
-  }
-  for (guint i = 0; i < notes->len; i++) {
-    const char *const cell[] = {g_ptr_array_index(notes, i), "note", NULL};
-    sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
-  }
+  g_autoptr(SbTable) table = sb_run_warnings(warnings, notes);
+  sb_report_table(pages, table);
   if (warnings->dropped > 0) {
     g_autofree char *text = g_strdup_printf("and %zu more", warnings->dropped);
     sb_report_text(pages, text, SB_TYPE_LABEL, 400, SB_ROLE_WARN);
@@ -493,24 +318,22 @@ static void draw_warnings(SbReportPages *pages, const SbWarnings *warnings,
 
 // What reviewers wrote.
 static void draw_remarks(SbReportPages *pages, const SbDocument *document) {
-  static const SbReportColumn columns[] = {{"", 2, SB_REPORT_WORDS}, {"", 6, SB_REPORT_WORDS}};
+  static const SbTableColumn columns[] = {{.label = "", .width = 2}, {.label = "", .width = 6}};
   static const char *const names[SB_REMARK_KINDS] = {"Bookmarks", "Notes"};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
-  bool headed = false;
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int kind = 0; kind < SB_REMARK_KINDS; kind++) {
     for (size_t i = 0; i < sb_document_remark_count(document, (SbRemarkKind)kind); i++) {
-      if (!headed) {
-        sb_report_heading(pages, "From the review", 60);
-        headed = true;
-      }
-      const char *const head[] = {names[kind], NULL};
       if (i == 0) {
-        sb_report_row(pages, &table, head, SB_REPORT_GROUP);
+        sb_table_note(table, names[kind]);
       }
-      const char *const cell[] = {sb_document_remark_name(document, (SbRemarkKind)kind, i),
-                                  sb_document_remark_text(document, (SbRemarkKind)kind, i)};
-      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+      sb_table_add(
+          table, SB_CELLS(sb_cell_text(sb_document_remark_name(document, (SbRemarkKind)kind, i)),
+                          sb_cell_text(sb_document_remark_text(document, (SbRemarkKind)kind, i))));
     }
+  }
+  if (sb_table_row(table, 0) != NULL) {
+    sb_report_heading(pages, "From the review", 60);
+    sb_report_table(pages, table);
   }
 }
 

@@ -54,19 +54,6 @@ char *sb_report_files(const SbDocument *document);
 // (SHA-256 of the parameters).
 char *sb_report_foot(const char *files, const char *hash);
 
-// Returns the value of a figure (index of sb_figure()) with its unit and the digits that its error
-// estimate supports; a dash if there is none.
-char *sb_report_value(const SbSummary *summary, int index);
-
-// Returns the error estimate of a figure in per cent, "rounding" if below 1e-9, "" if there is no
-// estimate.
-char *sb_report_error(const SbSummary *summary, int index);
-
-// Returns the margin of a value to the nearer bound, "1.4 N (5 %)"; negative if the limit is
-// violated; "" if it is not finite. `value`, `low`, `high` (may be infinite) in SI units of
-// `figure` (index of sb_figure()), `error` relative.
-char *sb_report_margin(int figure, double value, double error, double low, double high);
-
 // Draws the chapter "Inputs": the parameters in force with tolerances and origin, the models, the
 // sources that these name, and the other defaults (report_inputs.c).
 void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const SbModel *model);

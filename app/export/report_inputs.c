@@ -82,44 +82,43 @@ static char *value_of(const SbModel *model, SbParamId id) {
   return text;
 }
 
-static void add_parameter(SbReportPages *pages, SbReportTable *table, Sources *sources,
-                          const SbDocument *document, const SbModel *model, const SbParams *params,
-                          SbParamId id) {
+static void add_parameter(SbTable *table, Sources *sources, const SbDocument *document,
+                          const SbModel *model, const SbParams *params, SbParamId id) {
   const SbParam *param = sb_param(id);
   const int tolerance = sb_param_tolerance(id);
-  g_autofree char *source = NULL;
-  g_autofree char *origin = origin_of(&source, sources, document, model, params, id);
-  g_autofree char *value = value_of(model, id);
+  char *source = NULL, *origin = origin_of(&source, sources, document, model, params, id);
   g_autofree char *range = tolerance >= 0 && sb_model_value(model, (SbParamId)tolerance) > 0
                                ? value_of(model, (SbParamId)tolerance)
                                : NULL;
-  g_autofree char *shown = range != NULL ? g_strdup_printf("\xc2\xb1 %s", range) : NULL;
-  g_autofree char *label = param->parent >= 0
-                               ? g_strdup_printf("%s, %s", param->label, sb_seal_name(param->seal))
-                               : g_strdup(param->label);
-  const char *const cell[] = {label, param->symbol, value, shown, origin, source};
-  sb_report_row(pages, table, cell, SB_REPORT_PLAIN);
+  const bool seal = param->parent >= 0;
+  sb_table_add(table,
+               SB_CELLS(sb_cell_own(g_strconcat(param->label, seal ? ", " : "",
+                                                seal ? sb_seal_name(param->seal) : NULL, NULL)),
+                        sb_cell_text(param->symbol), sb_cell_shown(value_of(model, id)),
+                        sb_cell_shown(range != NULL ? g_strdup_printf("\xc2\xb1 %s", range) : NULL),
+                        sb_cell_own(origin), sb_cell_shown(source)));
 }
 
 static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument *document,
                         const SbModel *model, const SbParams *params) {
-  static const SbReportColumn columns[] = {{"Model", 1.4, SB_REPORT_WORDS},
-                                           {"Choice", 1.6, SB_REPORT_WORDS},
-                                           {"Meaning", 4.6, SB_REPORT_WORDS},
-                                           {"From", 2.2, SB_REPORT_WORDS},
-                                           {"Source", 0.9, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {{.label = "Model", .width = 1.4},
+                                          {.label = "Choice", .width = 1.6},
+                                          {.label = "Meaning", .width = 4.6},
+                                          {.label = "From", .width = 2.2},
+                                          {.label = "Source", .width = 0.9}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   sb_report_heading(pages, "Models", 120);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
     if (sb_param_group((SbParamId)i) == SB_PARAMS_MODELS && param->kind == SB_PARAM_CHOICE) {
-      g_autofree char *source = NULL;
-      g_autofree char *origin = origin_of(&source, sources, document, model, params, (SbParamId)i);
-      g_autofree char *value = value_of(model, (SbParamId)i);
-      const char *const cell[] = {param->label, value, param->help, origin, source};
-      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
+      char *source = NULL;
+      char *origin = origin_of(&source, sources, document, model, params, (SbParamId)i);
+      sb_table_add(table,
+                   SB_CELLS(sb_cell_text(param->label), sb_cell_own(value_of(model, (SbParamId)i)),
+                            sb_cell_text(param->help), sb_cell_own(origin), sb_cell_shown(source)));
     }
   }
+  sb_report_table(pages, table);
 }
 
 // Returns whether a parameter is in the table of inputs rather than among the defaults.
@@ -140,44 +139,37 @@ static bool is_listed(const SbModel *model, const SbParams *params, SbParamId id
 
 // Two parameters a row.
 static void draw_defaults(SbReportPages *pages, const SbModel *model, const SbParams *params) {
-  static const SbReportColumn columns[] = {{"", 2.6, SB_REPORT_WORDS},
-                                           {"", 1.6, SB_REPORT_NUMBER},
-                                           {"", 0.2, SB_REPORT_WORDS},
-                                           {"", 2.6, SB_REPORT_WORDS},
-                                           {"", 1.6, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {{.label = "", .width = 2.6},
+                                          {.label = "", .width = 1.6},
+                                          {.label = "", .width = 0.2},
+                                          {.label = "", .width = 2.6},
+                                          {.label = "", .width = 1.6}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
+  SbTableCell cell[G_N_ELEMENTS(columns)] = {{0}};
+  size_t filled = 0;
   sb_report_heading(pages, "All other parameters", 60);
-  const char *cell[5] = {NULL};
-  g_autofree char *left = NULL;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     const SbParam *param = sb_param((SbParamId)i);
-    if (!is_input((SbParamId)i) || param->parent >= 0 || is_listed(model, params, (SbParamId)i)) {
-      continue;
+    if (is_input((SbParamId)i) && param->parent < 0 && !is_listed(model, params, (SbParamId)i)) {
+      cell[filled] = sb_cell_text(param->key);
+      cell[filled + 1] = sb_cell_shown(value_of(model, (SbParamId)i));
+      filled += 3;
     }
-    g_autofree char *value = value_of(model, (SbParamId)i);
-    if (cell[0] == NULL) {
-      cell[0] = param->key;
-      left = g_steal_pointer(&value);
-      cell[1] = left;
-    } else {
-      cell[3] = param->key;
-      cell[4] = value;
-      sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
-      g_clear_pointer(&left, g_free);
+    if (filled > 3 || (filled > 0 && i + 1 == SB_PARAM_COUNT)) {
+      sb_table_add(table, cell);
       memset(cell, 0, sizeof cell);
+      filled = 0;
     }
   }
-  if (cell[0] != NULL) {
-    sb_report_row(pages, &table, cell, SB_REPORT_PLAIN);
-  }
+  sb_report_table(pages, table);
 }
 
 void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const SbModel *model) {
-  static const SbReportColumn columns[] = {
-      {"Parameter", 3.2, SB_REPORT_WORDS}, {"", 0.8, SB_REPORT_WORDS},
-      {"Value", 1.8, SB_REPORT_NUMBER},    {"Tolerance", 1.5, SB_REPORT_NUMBER},
-      {"From", 2.4, SB_REPORT_WORDS},      {"Source", 0.9, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {
+      {.label = "Parameter", .width = 3.2}, {.label = "", .width = 0.8},
+      {.label = "Value", .width = 1.8},     {.label = "Tolerance", .width = 1.5},
+      {.label = "From", .width = 2.4},      {.label = "Source", .width = 0.9}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   Sources sources = {g_ptr_array_new_with_free_func(g_free)};
   const SbParams params = sb_document_params(document);
   sb_report_heading(pages, "Inputs", 100);
@@ -194,14 +186,14 @@ void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const Sb
       if (!named) {
         group = sb_param_group((SbParamId)i);
         g_autofree char *name = group_of((SbParamId)i);
-        const char *const head[] = {name, NULL, NULL, NULL, NULL, NULL};
-        sb_report_row(pages, &table, head, SB_REPORT_GROUP);
+        sb_table_note(table, name);
         named = true;
       }
       done[i] = true;
-      add_parameter(pages, &table, &sources, document, model, &params, (SbParamId)i);
+      add_parameter(table, &sources, document, model, &params, (SbParamId)i);
     }
   }
+  sb_report_table(pages, table);
   draw_models(pages, &sources, document, model, &params);
   sb_report_heading(pages, "Sources", 60);
   for (guint i = 0; i < sources.text->len; i++) {

@@ -205,91 +205,119 @@ void sb_report_pair(SbReportPages *pages, double height, SbReportPicture draw, c
 
 // ---- Tables ----
 
-static double column_width(const SbReportPages *pages, const SbReportTable *table, size_t k) {
+// The columns of a table that a page has, and the table's first row of cells.
+typedef struct {
+  size_t count, index[SB_REPORT_COLUMNS];
+  double width[SB_REPORT_COLUMNS];
+  bool right[SB_REPORT_COLUMNS]; // the first row has a number there
+  const char *head[SB_REPORT_COLUMNS];
+  bool headed;
+} Columns;
+
+static Columns columns_of(const SbReportPages *pages, const SbTable *table) {
+  Columns out = {0};
+  size_t all, first = 0;
   double sum = 0;
-  for (size_t i = 0; i < table->columns; i++) {
-    sum += table->column[i].share;
+  const SbTableColumn *column = sb_table_columns(table, &all);
+  const SbTableRow *row = sb_table_row(table, 0);
+  while (row != NULL && row->note != NULL) {
+    row = sb_table_row(table, ++first);
   }
-  return sb_report_width(pages) * table->column[k].share / sum - GAP;
+  for (size_t k = 0; k < all && out.count < SB_REPORT_COLUMNS; k++) {
+    if (column[k].label != NULL) {
+      sum += column[k].width;
+      out.index[out.count] = k;
+      out.width[out.count] = column[k].width;
+      out.right[out.count] = row != NULL && row->cell[k].kind == SB_CELL_NUMBER;
+      out.headed |= column[k].label[0] != '\0';
+      out.head[out.count++] = column[k].label;
+    }
+  }
+  for (size_t k = 0; k < out.count; k++) {
+    out.width[k] = sb_report_width(pages) * out.width[k] / sum - GAP;
+  }
+  return out;
 }
 
-static double row_height(SbReportPages *pages, const SbReportTable *table, const char *const *cell,
-                         const SbTextStyle *style) {
-  double height = CELL;
-  for (size_t k = 0; k < table->columns; k++) {
-    if (cell[k] != NULL && cell[k][0] != '\0') {
-      height = fmax(height, sb_canvas_paragraph_height(&pages->canvas, cell[k], style,
-                                                       column_width(pages, table, k)));
+// Draws the texts of a row, or only returns the height it needs.
+static double put_texts(SbReportPages *pages, const Columns *columns, const char *const *text,
+                        const SbTextStyle *style, const bool *good, bool draw) {
+  const SbTextStyle pass = style_of(pages, CELL, 700, SB_ROLE_PASS);
+  double height = CELL, x = SB_REPORT_MARGIN + 0.5 * GAP;
+  for (size_t k = 0; k < columns->count; k++) {
+    const double width = columns->width[k];
+    if (draw) {
+      sb_canvas_paragraph_aligned(&pages->canvas, text[k], good[k] ? &pass : style, x,
+                                  pages->y + ROW_ABOVE - 1, width,
+                                  columns->right[k] ? SB_RIGHT : SB_LEFT);
+    } else if (text[k][0] != '\0') {
+      height = fmax(height, sb_canvas_paragraph_height(&pages->canvas, text[k], style, width));
     }
+    x += width + GAP;
   }
   return fmax(height, 1.3 * CELL) + ROW_ABOVE + ROW_BELOW;
 }
 
-static void draw_cells(SbReportPages *pages, const SbReportTable *table, const char *const *cell,
-                       const SbTextStyle *style) {
-  double x = SB_REPORT_MARGIN + 0.5 * GAP;
-  for (size_t k = 0; k < table->columns; k++) {
-    const double width = column_width(pages, table, k);
-    const SbReportCells cells = table->column[k].cells;
-    const SbTextStyle pass = style_of(pages, CELL, 700, SB_ROLE_PASS);
-    const bool good = cells == SB_REPORT_ANSWER && g_strcmp0(cell[k], "yes") == 0;
-    if (cell[k] != NULL) {
-      sb_canvas_paragraph_aligned(&pages->canvas, cell[k], good ? &pass : style, x,
-                                  pages->y + ROW_ABOVE - 1, width,
-                                  cells == SB_REPORT_NUMBER ? SB_RIGHT : SB_LEFT);
-    }
-    x += width + GAP;
-  }
-}
-
-static void draw_head(SbReportPages *pages, const SbReportTable *table) {
-  const char *head[SB_REPORT_COLUMNS] = {NULL};
-  bool any = false;
-  for (size_t k = 0; k < table->columns; k++) {
-    head[k] = table->column[k].head;
-    any |= head[k] != NULL && head[k][0] != '\0';
-  }
-  if (any) {
+static void draw_head(SbReportPages *pages, const Columns *columns) {
+  const bool plain[SB_REPORT_COLUMNS] = {false};
+  if (columns->headed) {
     const SbTextStyle style = style_of(pages, CELL, 700, SB_ROLE_SECOND);
-    const double height = row_height(pages, table, head, &style);
-    draw_cells(pages, table, head, &style);
+    const double height = put_texts(pages, columns, columns->head, &style, plain, false);
+    (void)put_texts(pages, columns, columns->head, &style, plain, true);
     pages->y += height;
   }
   sb_canvas_hairline(&pages->canvas, SB_REPORT_MARGIN, pages->y, pages->width - SB_REPORT_MARGIN,
                      pages->y, sb_canvas_role(&pages->canvas, SB_ROLE_AXIS));
 }
 
-void sb_report_row(SbReportPages *pages, SbReportTable *table, const char *const *cell,
-                   SbReportLook look) {
+// Draws a row; `first`: the first of its table.
+static void draw_row(SbReportPages *pages, const Columns *columns, const SbTableRow *row,
+                     bool first) {
+  static const SbRole inks[] = {SB_ROLE_INK, SB_ROLE_WARN, SB_ROLE_ERROR};
+  static const SbRole grounds[] = {0, SB_ROLE_WARN_GROUND, SB_ROLE_ERROR_GROUND};
   SbCanvas *c = &pages->canvas;
-  const bool group = look == SB_REPORT_GROUP;
-  const SbTextStyle style = style_of(pages, CELL, group ? 700 : 400,
-                                     look == SB_REPORT_WRONG   ? SB_ROLE_ERROR
-                                     : look == SB_REPORT_DOUBT ? SB_ROLE_WARN
-                                                               : SB_ROLE_INK);
-  const double height =
-      group ? 1.3 * CELL + ROW_ABOVE + ROW_BELOW + 6 : row_height(pages, table, cell, &style);
+  const bool group = row->note != NULL;
+  const SbTextStyle style = style_of(pages, CELL, group ? 700 : 400, inks[row->mark]);
+  char *text[SB_REPORT_COLUMNS] = {NULL};
+  bool good[SB_REPORT_COLUMNS] = {false};
+  double height = 1.3 * CELL + ROW_ABOVE + ROW_BELOW + 6;
+  if (!group) {
+    for (size_t k = 0; k < columns->count; k++) {
+      const SbTableCell *cell = &row->cell[columns->index[k]];
+      text[k] = sb_table_shown(cell);
+      good[k] = cell->kind == SB_CELL_ANSWER && cell->number > 0;
+    }
+    height = put_texts(pages, columns, (const char *const *)text, &style, good, false);
+  }
   const int page = pages->page;
-  sb_report_room(pages, height + (group || !table->open ? 50 : 0));
-  if (!table->open || page != pages->page) {
-    draw_head(pages, table);
-    table->open = true;
+  sb_report_room(pages, height + (group || first ? 50 : 0));
+  if (first || page != pages->page) {
+    draw_head(pages, columns);
   }
   const double width = sb_report_width(pages);
-  if (look == SB_REPORT_WRONG || look == SB_REPORT_DOUBT) {
-    sb_canvas_color(
-        c, sb_canvas_role(c, look == SB_REPORT_WRONG ? SB_ROLE_ERROR_GROUND : SB_ROLE_WARN_GROUND),
-        1);
+  if (row->mark != SB_TABLE_PLAIN) {
+    sb_canvas_color(c, sb_canvas_role(c, grounds[row->mark]), 1);
     cairo_rectangle(pages->cr, SB_REPORT_MARGIN, pages->y + 1, width, height - 1);
     cairo_fill(pages->cr);
   }
   if (group) {
-    sb_canvas_text(c, cell[0], &style, SB_REPORT_MARGIN + 0.5 * GAP,
+    sb_canvas_text(c, row->note, &style, SB_REPORT_MARGIN + 0.5 * GAP,
                    pages->y + height - ROW_BELOW - 0.3 * CELL, SB_LEFT);
   } else {
-    draw_cells(pages, table, cell, &style);
+    (void)put_texts(pages, columns, (const char *const *)text, &style, good, true);
   }
   pages->y += height;
   sb_canvas_hairline(c, SB_REPORT_MARGIN, pages->y, SB_REPORT_MARGIN + width, pages->y,
                      sb_canvas_role(c, SB_ROLE_HAIRLINE));
+  for (size_t k = 0; k < columns->count; k++) {
+    g_free(text[k]);
+  }
+}
+
+void sb_report_table(SbReportPages *pages, const SbTable *table) {
+  const Columns columns = columns_of(pages, table);
+  const SbTableRow *row;
+  for (size_t i = 0; (row = sb_table_row(table, i)) != NULL; i++) {
+    draw_row(pages, &columns, row, i == 0);
+  }
 }

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "app/draw/canvas.h"
+#include "app/table/table.h"
 
 #include <stdbool.h>
 #include <stdio.h>
@@ -81,42 +82,11 @@ void sb_report_pair(SbReportPages *pages, double height, SbReportPicture draw, c
 // Returns the height that is left on the present page.
 double sb_report_left(const SbReportPages *pages);
 
-// ---- Tables ----
+// Draws a table (app/table/table.h) of at most SB_REPORT_COLUMNS columns with a label; its head is
+// repeated on each new page. A column has its share of the width, its numbers are on the right,
+// long texts break between words. Notes are subheadings, marked rows are coloured, and so is a good
+// answer.
+void sb_report_table(SbReportPages *pages, const SbTable *table);
 
-// Largest number of columns.
+// Largest number of columns of a table.
 enum { SB_REPORT_COLUMNS = 8 };
-
-// Content of a column's cells; long texts break between words.
-typedef enum {
-  SB_REPORT_WORDS,  // aligned left
-  SB_REPORT_NUMBER, // aligned right
-  SB_REPORT_ANSWER  // aligned left, "yes" is highlighted as good
-} SbReportCells;
-
-// A column.
-typedef struct {
-  const char *head; // heading
-  double share;     // its width relative to the sum of all shares
-  SbReportCells cells;
-} SbReportColumn;
-
-// A table. The caller sets `column` and `columns` and zeroes the rest, in each of both passes. It
-// ends with its last row.
-typedef struct {
-  const SbReportColumn *column; // [columns]
-  size_t columns;               // at most SB_REPORT_COLUMNS
-  bool open;                    // internal: the head is on this page
-} SbReportTable;
-
-// Looks of a row.
-typedef enum {
-  SB_REPORT_PLAIN,
-  SB_REPORT_GROUP, // a subheading across all columns
-  SB_REPORT_WRONG, // as an error
-  SB_REPORT_DOUBT  // as a warning
-} SbReportLook;
-
-// Draws a row, and the table's head before the first row and on each new page. `cell`: [columns]
-// texts, NULL: empty; of SB_REPORT_GROUP only the first is used.
-void sb_report_row(SbReportPages *pages, SbReportTable *table, const char *const *cell,
-                   SbReportLook look);

@@ -87,13 +87,13 @@ static char *probability_text(const Study *study, const SbLimitShare *share) {
 }
 
 static void draw_limits(SbReportPages *pages, Study *study) {
-  static const SbReportColumn columns[] = {
-      {"Limit on", 4, SB_REPORT_WORDS},
-      {"Limit", 1.6, SB_REPORT_NUMBER},
-      {"Beyond", 1.6, SB_REPORT_NUMBER},
-      {"Probability (95 % of sampling alone)", 3, SB_REPORT_NUMBER},
-      {"\xce\xb2", 0.8, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {
+      {.label = "Limit on", .width = 4},
+      {.label = "Limit", .width = 1.6},
+      {.label = "Beyond", .width = 1.6},
+      {.label = "Probability (95 % of sampling alone)", .width = 3},
+      {.label = "\xce\xb2", .width = 0.8}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   const SbStudyFile *file = study->study;
   const bool independent =
       file->method == SB_METHOD_MONTE_CARLO || file->method == SB_METHOD_RELIABILITY;
@@ -109,16 +109,18 @@ static void draw_limits(SbReportPages *pages, Study *study) {
     study->status = status != SB_OK ? status : study->status;
     const bool all = i == file->limits.count;
     const SbLimit *limit = &file->limits.item[all ? 0 : i];
-    g_autofree char *label = all ? g_strdup("any of them") : sb_figure_label(limit->figure);
-    g_autofree char *text =
-        all ? g_strdup("") : sb_limit_format(limit->figure, limit->low, limit->high);
-    g_autofree char *beyond = g_strdup_printf("%zu of %zu", share.beyond, share.of);
-    g_autofree char *odds = independent ? probability_text(study, &share) : g_strdup(DASH);
-    g_autofree char *beta =
-        independent && isfinite(share.beta) ? g_strdup_printf("%.2f", share.beta) : g_strdup(DASH);
-    const char *const cell[] = {label, text, beyond, odds, beta};
-    sb_report_row(pages, &table, cell, share.beyond > 0 ? SB_REPORT_DOUBT : SB_REPORT_PLAIN);
+    const bool beta = independent && isfinite(share.beta);
+    sb_table_add(
+        table,
+        SB_CELLS(
+            sb_cell_own(all ? g_strdup("any of them") : sb_figure_label(limit->figure)),
+            sb_cell_shown(all ? NULL : sb_limit_format(limit->figure, limit->low, limit->high)),
+            sb_cell_shown(g_strdup_printf("%zu of %zu", share.beyond, share.of)),
+            sb_cell_shown(independent ? probability_text(study, &share) : g_strdup(DASH)),
+            sb_cell_shown(beta ? g_strdup_printf("%.2f", share.beta) : g_strdup(DASH))));
+    sb_table_mark(table, share.beyond > 0 ? SB_TABLE_DOUBT : SB_TABLE_PLAIN);
   }
+  sb_report_table(pages, table);
   sb_report_skip(pages, 6);
   sb_report_text(pages,
                  independent ? "Fractions of the feasible samples; a sample whose solver did not "
@@ -128,12 +130,12 @@ static void draw_limits(SbReportPages *pages, Study *study) {
 }
 
 static void draw_statistics(SbReportPages *pages, Study *study) {
-  static const SbReportColumn columns[] = {
-      {"Figure", 3.6, SB_REPORT_WORDS},     {"Mean", 1.3, SB_REPORT_NUMBER},
-      {"Deviation", 1.3, SB_REPORT_NUMBER}, {"Least", 1.3, SB_REPORT_NUMBER},
-      {"5 %", 1.3, SB_REPORT_NUMBER},       {"Median", 1.3, SB_REPORT_NUMBER},
-      {"95 %", 1.3, SB_REPORT_NUMBER},      {"Most", 1.3, SB_REPORT_NUMBER}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {
+      {.label = "Figure", .width = 3.6},    {.label = "Mean", .width = 1.3},
+      {.label = "Deviation", .width = 1.3}, {.label = "Least", .width = 1.3},
+      {.label = "5 %", .width = 1.3},       {.label = "Median", .width = 1.3},
+      {.label = "95 %", .width = 1.3},      {.label = "Most", .width = 1.3}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   sb_report_heading(pages, "Figures over the samples", 80);
   for (size_t k = 0; k < study->answers->figures; k++) {
     const int figure = figure_at(study, k);
@@ -147,16 +149,14 @@ static void draw_statistics(SbReportPages *pages, Study *study) {
     }
     const double value[] = {of.mean,        of.deviation,   of.min, of.quantile[1],
                             of.quantile[2], of.quantile[3], of.max};
-    char *cell[8] = {sb_figure_label(figure)};
+    SbTableCell cell[G_N_ELEMENTS(columns)] = {sb_cell_own(sb_figure_label(figure))};
     for (size_t i = 0; i < G_N_ELEMENTS(value); i++) {
-      cell[i + 1] = i == 1 && of.count > 1 && !of.varies ? g_strdup("does not vary")
-                                                         : shown(figure, value[i]);
+      const bool constant = i == 1 && of.count > 1 && !of.varies;
+      cell[i + 1] = sb_cell_shown(constant ? g_strdup("does not vary") : shown(figure, value[i]));
     }
-    sb_report_row(pages, &table, (const char *const *)cell, SB_REPORT_PLAIN);
-    for (size_t i = 0; i < G_N_ELEMENTS(cell); i++) {
-      g_free(cell[i]);
-    }
+    sb_table_add(table, cell);
   }
+  sb_report_table(pages, table);
 }
 
 // Which samples are outside the validity of their models.
@@ -211,24 +211,14 @@ static char *distribution_text(const SbVary *vary) {
   }
 }
 
-static void add_varied(SbReportPages *pages, SbReportTable *table, const Study *study,
-                       const SbVary *vary) {
-  const bool is_param = vary->id != SB_VARY_VARIABLE;
-  g_autofree char *value =
-      is_param ? sb_param_format(vary->id, sb_model_value(study->study->base, vary->id)) : NULL;
-  g_autofree char *how = distribution_text(vary);
-  const char *const cell[] = {sb_vary_name(vary), value, how};
-  sb_report_row(pages, table, cell, SB_REPORT_PLAIN);
-}
-
 static void draw_varied(SbReportPages *pages, const Study *study) {
-  static const SbReportColumn columns[] = {{"Varied parameters", 3.4, SB_REPORT_WORDS},
-                                           {"In the scene", 1.6, SB_REPORT_NUMBER},
-                                           {"How", 5, SB_REPORT_WORDS}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {{.label = "Varied parameters", .width = 3.4},
+                                          {.label = "In the scene", .width = 1.6},
+                                          {.label = "How", .width = 5}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   const SbStudyFile *file = study->study;
   sb_report_heading(pages, "Varied parameters", 60);
-  // A grid that says more has lines of its own, several of a parameter.
+  // A grid of several lines may have several lines of one parameter.
   guint grid = 0;
   for (guint k = 0; k < (file->lines != NULL ? file->lines->len : file->vary->len); k++) {
     const SbVary *vary =
@@ -236,12 +226,18 @@ static void draw_varied(SbReportPages *pages, const Study *study) {
     if (file->lines != NULL && vary->grid != grid) {
       g_autofree char *name = g_strdup_printf("Grid %u, %zu samples", vary->grid,
                                               sb_study_grid_samples(file, vary->grid));
-      const char *const head[] = {name, NULL, NULL};
-      sb_report_row(pages, &table, head, SB_REPORT_GROUP);
+      sb_table_note(table, name);
       grid = vary->grid;
     }
-    add_varied(pages, &table, study, vary);
+    const bool is_param = vary->id != SB_VARY_VARIABLE;
+    sb_table_add(
+        table, SB_CELLS(sb_cell_text(sb_vary_name(vary)),
+                        sb_cell_shown(is_param ? sb_param_format(
+                                                     vary->id, sb_model_value(file->base, vary->id))
+                                               : NULL),
+                        sb_cell_own(distribution_text(vary))));
   }
+  sb_report_table(pages, table);
 }
 
 static void draw_leakage(SbReportPages *pages, Study *study) {
@@ -491,45 +487,50 @@ static void draw_study(cairo_t *cr, SbRect rect, const SbTheme *theme, const voi
   sb_study_draw(cr, rect, theme, of);
 }
 
-// A row a sample: the parameters in a cell, then the first figures.
+// Returns the parameters of a sample with their values.
+static char *point_text(const Study *study, size_t sample) {
+  GString *out = g_string_new(NULL);
+  for (size_t p = 0; p < study->study->vary->len; p++) {
+    const SbVary *vary = vary_at(study, p);
+    const double at = study->of->value[sample * study->study->vary->len + p];
+    if (vary->id != SB_VARY_VARIABLE && isfinite(at)) {
+      const char *symbol = sb_param(vary->id)->symbol;
+      g_autofree char *value = sb_param_format(vary->id, at);
+      g_string_append_printf(out, "%s%s %s", out->len > 0 ? ", " : "",
+                             symbol != NULL ? symbol : sb_vary_name(vary), value);
+    }
+  }
+  return g_string_free(out, FALSE);
+}
+
+// Draws one row for each sample of a grid: its parameters in one cell, then the first figures.
 static void draw_samples(SbReportPages *pages, const Study *study) {
-  SbReportColumn columns[6] = {{"", 0.6, SB_REPORT_NUMBER}, {"Sample", 4, SB_REPORT_WORDS}};
-  size_t count = 2;
+  enum { FIGURES = 4 };
+  const SbAnswers *answers = study->answers;
+  SbTableColumn columns[2 + FIGURES] = {{.label = "", .width = 0.6},
+                                        {.label = "Sample", .width = 4}};
+  const size_t figures = MIN(answers->figures, FIGURES);
   g_autoptr(GPtrArray) heads = g_ptr_array_new_with_free_func(g_free);
-  const size_t n = study->study->vary->len;
-  if (study->study->method != SB_METHOD_GRID || study->answers->samples > GRID_ROWS) {
+  if (study->study->method != SB_METHOD_GRID || answers->samples > GRID_ROWS) {
     return;
   }
-  for (size_t k = 0; k < study->answers->figures && count < G_N_ELEMENTS(columns); k++) {
+  for (size_t k = 0; k < figures; k++) {
     g_ptr_array_add(heads, sb_figure_label(figure_at(study, k)));
-    columns[count++] = (SbReportColumn){g_ptr_array_index(heads, k), 1.8, SB_REPORT_WORDS};
+    columns[2 + k] = (SbTableColumn){.label = heads->pdata[k], .width = 1.8};
   }
-  SbReportTable table = {.column = columns, .columns = count};
+  g_autoptr(SbTable) table = sb_table_new(columns, 2 + figures);
   sb_report_heading(pages, "Samples", 80);
-  for (size_t i = 0; i < study->answers->samples; i++) {
-    char *cell[6] = {g_strdup_printf("%zu", i + 1)};
-    GString *where = g_string_new(NULL);
-    for (size_t p = 0; p < n; p++) {
-      const SbVary *vary = vary_at(study, p);
-      if (vary->id != SB_VARY_VARIABLE && isfinite(study->of->value[i * n + p])) {
-        g_autofree char *value = sb_param_format(vary->id, study->of->value[i * n + p]);
-        g_string_append_printf(where, "%s%s %s", where->len > 0 ? ", " : "",
-                               sb_param(vary->id)->symbol != NULL ? sb_param(vary->id)->symbol
-                                                                  : sb_vary_name(vary),
-                               value);
-      }
+  for (size_t i = 0; i < answers->samples; i++) {
+    SbTableCell cell[2 + FIGURES] = {sb_cell_shown(g_strdup_printf("%zu", i + 1)),
+                                     sb_cell_own(point_text(study, i))};
+    for (size_t k = 0; k < figures; k++) {
+      cell[2 + k] =
+          sb_cell_own(shown(figure_at(study, k), answers->value[i * answers->figures + k]));
     }
-    cell[1] = g_string_free(where, FALSE);
-    for (size_t k = 2; k < count; k++) {
-      cell[k] = shown(figure_at(study, k - 2),
-                      study->answers->value[i * study->answers->figures + k - 2]);
-    }
-    sb_report_row(pages, &table, (const char *const *)cell,
-                  study->answers->status[i] == SB_OK ? SB_REPORT_PLAIN : SB_REPORT_DOUBT);
-    for (size_t k = 0; k < count; k++) {
-      g_free(cell[k]);
-    }
+    sb_table_add(table, cell);
+    sb_table_mark(table, answers->status[i] == SB_OK ? SB_TABLE_PLAIN : SB_TABLE_DOUBT);
   }
+  sb_report_table(pages, table);
 }
 
 // ---- The whole ----
@@ -540,21 +541,23 @@ static void draw_failures(SbReportPages *pages, const Study *study) {
   if (sb_study_failed(study->answers) == 0) {
     return;
   }
-  static const SbReportColumn columns[] = {{"Sample", 0.8, SB_REPORT_NUMBER},
-                                           {"Status", 1.4, SB_REPORT_WORDS},
-                                           {"Reason", 7, SB_REPORT_WORDS}};
-  SbReportTable table = {.column = columns, .columns = G_N_ELEMENTS(columns)};
+  static const SbTableColumn columns[] = {{.label = "Sample", .width = 0.8},
+                                          {.label = "Status", .width = 1.4},
+                                          {.label = "Reason", .width = 7}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   sb_report_heading(pages, "Samples without an answer", 60);
   for (size_t i = 0; i < study->answers->samples && shown < MOST; i++) {
     const uint8_t status = study->answers->status[i];
     if (status != SB_OK && status != SB_ANSWER_MISSING) {
-      g_autofree char *number = g_strdup_printf("%zu", i + 1);
-      const char *reason = g_hash_table_lookup(study->answers->reason, GSIZE_TO_POINTER(i));
-      const char *const cell[] = {number, sb_study_status_name(status), reason};
-      sb_report_row(pages, &table, cell, SB_REPORT_DOUBT);
+      sb_table_add(table, SB_CELLS(sb_cell_shown(g_strdup_printf("%zu", i + 1)),
+                                   sb_cell_text(sb_study_status_name(status)),
+                                   sb_cell_text(g_hash_table_lookup(study->answers->reason,
+                                                                    GSIZE_TO_POINTER(i)))));
+      sb_table_mark(table, SB_TABLE_DOUBT);
       shown++;
     }
   }
+  sb_report_table(pages, table);
 }
 
 static void draw_pages(SbReportPages *pages, const void *of) {

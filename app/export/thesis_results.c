@@ -146,10 +146,10 @@ static char *difference_text(const SbThesisRow *row) {
 }
 
 static const SbTableColumn columns[] = {
-    {"label", "  %-*s", "", ""},
-    {"printed", " %14s", "printed", "printed"},
-    {"thesis_model", " %14s", "thesis' model", "thesis' model"},
-    {"consistent", " %14s", "consistent", "consistent"},
+    {"label", "  %-*s", "", "", 0},
+    {"printed", " %14s", "printed", "printed", 0},
+    {"thesis_model", " %14s", "thesis' model", "thesis' model", 0},
+    {"consistent", " %14s", "consistent", "consistent", 0},
     {.key = "unit"},
     {.key = "difference", .label = "difference"},
     {.key = "remains"},
@@ -176,7 +176,7 @@ static SbTable *make_table(const SbThesisItem *item, const GPtrArray *reasons) {
                           sb_cell_text(sb_thesis_verdict_name(row->verdict)),
                           sb_cell_text_as(reason, numbered), sb_cell_text_as(model, steps)));
     if (row->verdict == SB_THESIS_FAILS) {
-      sb_table_mark(table);
+      sb_table_mark(table, SB_TABLE_WRONG);
     }
   }
   return table;

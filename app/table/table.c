@@ -7,16 +7,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-typedef struct {
-  const char *note; // a line of text; NULL: a row of cells
-  bool marked;
-  SbTableCell cell[]; // [columns] of the table, whose texts are in its `texts`
-} Row;
-
 struct SbTable {
   const SbTableColumn *column;
   size_t columns;
-  GPtrArray *row; // of Row
+  GPtrArray *row; // of SbTableRow, whose texts are in `texts`
   GStringChunk *texts;
 };
 
@@ -40,31 +34,42 @@ static const char *keep(SbTable *table, const char *text) {
   return text != NULL ? g_string_chunk_insert(table->texts, text) : NULL;
 }
 
-static Row *add_row(SbTable *table) {
-  Row *row = g_malloc0(sizeof *row + table->columns * sizeof row->cell[0]);
+static SbTableRow *add_row(SbTable *table) {
+  SbTableRow *row = g_malloc0(sizeof *row + table->columns * sizeof row->cell[0]);
   g_ptr_array_add(table->row, row);
   return row;
 }
 
 void sb_table_add(SbTable *table, const SbTableCell *cells) {
-  Row *row = add_row(table);
+  SbTableRow *row = add_row(table);
   for (size_t k = 0; k < table->columns; k++) {
     row->cell[k] = cells[k];
-    row->cell[k].text = keep(table, cells[k].text);
-    row->cell[k].shown = keep(table, cells[k].shown);
+    const char *own = keep(table, cells[k].own);
+    row->cell[k].own = NULL;
+    row->cell[k].text = own != NULL ? own : keep(table, cells[k].text);
+    row->cell[k].shown = own != NULL ? own : keep(table, cells[k].shown);
+    g_free(cells[k].own);
   }
 }
 
-void sb_table_mark(SbTable *table) {
-  ((Row *)table->row->pdata[table->row->len - 1])->marked = true;
+void sb_table_mark(SbTable *table, SbTableMark mark) {
+  ((SbTableRow *)table->row->pdata[table->row->len - 1])->mark = mark;
 }
 
 void sb_table_note(SbTable *table, const char *text) {
   add_row(table)->note = keep(table, text);
 }
 
-// Returns what people read of a cell. Freed by g_free().
-static char *shown_text(const SbTableCell *cell) {
+const SbTableColumn *sb_table_columns(const SbTable *table, size_t *count) {
+  *count = table->columns;
+  return table->column;
+}
+
+const SbTableRow *sb_table_row(const SbTable *table, size_t index) {
+  return index < table->row->len ? table->row->pdata[index] : NULL;
+}
+
+char *sb_table_shown(const SbTableCell *cell) {
   if (cell->shown != NULL || cell->kind == SB_CELL_TEXT || cell->kind == SB_CELL_ABSENT) {
     return g_strdup(cell->shown != NULL ? cell->shown : cell->text != NULL ? cell->text : "");
   }
@@ -84,8 +89,8 @@ static char *shown_text(const SbTableCell *cell) {
 static int longest(const SbTable *table, size_t k) {
   glong width = 0;
   for (guint i = 0; i < table->row->len; i++) {
-    const Row *row = table->row->pdata[i];
-    g_autofree char *text = shown_text(&row->cell[k]);
+    const SbTableRow *row = table->row->pdata[i];
+    g_autofree char *text = sb_table_shown(&row->cell[k]);
     width = MAX(width, g_utf8_strlen(text, -1));
   }
   return (int)width;
@@ -106,11 +111,11 @@ static void put_cell(GString *out, const char *layout, int width, const char *te
 }
 
 // Appends a line of text: the row `row`, or the headings if it is NULL.
-static void put_line(GString *out, const SbTable *table, const Row *row, const int *width) {
+static void put_line(GString *out, const SbTable *table, const SbTableRow *row, const int *width) {
   for (size_t k = 0; k < table->columns; k++) {
     const SbTableColumn *column = &table->column[k];
     if (column->layout != NULL) {
-      g_autofree char *text = row != NULL ? shown_text(&row->cell[k]) : g_strdup(column->head);
+      g_autofree char *text = row != NULL ? sb_table_shown(&row->cell[k]) : g_strdup(column->head);
       put_cell(out, column->layout, width[k], text != NULL ? text : "");
     }
   }
@@ -130,7 +135,7 @@ char *sb_table_text(const SbTable *table) {
     put_line(out, table, NULL, width);
   }
   for (guint i = 0; i < table->row->len; i++) {
-    const Row *row = table->row->pdata[i];
+    const SbTableRow *row = table->row->pdata[i];
     if (row->note != NULL) {
       g_string_append_printf(out, "%s\n", row->note);
     } else {
@@ -169,7 +174,7 @@ void sb_csv_row(FILE *stream, const SbTableCell *cells, size_t count) {
 }
 
 // Writes the row `row`, or the headings if it is NULL.
-static void put_csv(FILE *stream, const SbTable *table, const Row *row) {
+static void put_csv(FILE *stream, const SbTable *table, const SbTableRow *row) {
   const char *before = "";
   for (size_t k = 0; k < table->columns; k++) {
     const SbTableCell heading = sb_cell_text(table->column[k].key);
@@ -185,7 +190,7 @@ static void put_csv(FILE *stream, const SbTable *table, const Row *row) {
 void sb_table_csv(FILE *stream, const SbTable *table) {
   put_csv(stream, table, NULL);
   for (guint i = 0; i < table->row->len && ferror(stream) == 0; i++) {
-    const Row *row = table->row->pdata[i];
+    const SbTableRow *row = table->row->pdata[i];
     if (row->note == NULL) {
       put_csv(stream, table, row);
     }
@@ -209,7 +214,7 @@ void sb_table_json(SbJson *json, const char *key, const SbTable *table) {
   const bool named = table->column[0].key == NULL;
   (named ? sb_json_object : sb_json_array)(json, key);
   for (guint i = 0; i < table->row->len; i++) {
-    const Row *row = table->row->pdata[i];
+    const SbTableRow *row = table->row->pdata[i];
     if (row->note != NULL) {
       continue;
     }
@@ -227,16 +232,17 @@ void sb_table_json(SbJson *json, const char *key, const SbTable *table) {
 // ---- Pages ----
 
 // Appends the row `row`, or the headings if it is NULL.
-static void put_html(GString *out, const SbTable *table, const Row *row) {
+static void put_html(GString *out, const SbTable *table, const SbTableRow *row) {
   if (row != NULL && row->note != NULL) {
     return;
   }
-  g_string_append(out, row != NULL && row->marked ? "<tr class=\"fails\">" : "<tr>");
+  g_string_append(out,
+                  row != NULL && row->mark == SB_TABLE_WRONG ? "<tr class=\"fails\">" : "<tr>");
   for (size_t k = 0; k < table->columns; k++) {
     const char *label = table->column[k].label;
     if (label != NULL) {
       const bool number = row != NULL && row->cell[k].kind == SB_CELL_NUMBER;
-      g_autofree char *plain = row != NULL ? shown_text(&row->cell[k]) : g_strdup(label);
+      g_autofree char *plain = row != NULL ? sb_table_shown(&row->cell[k]) : g_strdup(label);
       g_autofree char *text = g_markup_escape_text(plain, -1);
       const char *element = row != NULL ? "td" : "th";
       g_string_append_printf(out, "<%s%s>%s</%s>", element, number ? " class=\"n\"" : "", text,
@@ -267,11 +273,11 @@ char *sb_table_markdown(const SbTable *table) {
   g_string_append(out, rule->str);
   g_string_free(rule, TRUE);
   for (guint i = 0; i < table->row->len; i++) {
-    const Row *row = table->row->pdata[i];
+    const SbTableRow *row = table->row->pdata[i];
     g_string_append(out, row->note == NULL ? "\n|" : "");
     for (size_t k = 0; k < table->columns && row->note == NULL; k++) {
       if (table->column[k].label != NULL) {
-        g_autofree char *text = shown_text(&row->cell[k]);
+        g_autofree char *text = sb_table_shown(&row->cell[k]);
         g_string_append_printf(out, " %s |", text);
       }
     }

@@ -1,10 +1,12 @@
-// One table of results and its outputs: text for a terminal, CSV, JSON, HTML and Markdown. A
-// command fills the rows once; each output has the columns that its field of SbTableColumn names.
-// Numbers of files are exact and in SI units; people read the text of a cell.
+// One table of results and its outputs: text for a terminal, CSV, JSON, HTML, Markdown and the
+// pages of a report (app/export/report_pages.h). Its rows are filled once; each output has the
+// columns that its field of SbTableColumn names. Numbers of files are exact and in SI units; people
+// read the text of a cell.
 #pragma once
 
 #include "app/table/json.h"
 
+#include <math.h>
 #include <stdio.h>
 
 // A column. A field that is NULL leaves the column out of the outputs of that field.
@@ -13,13 +15,15 @@ typedef struct {
   const char *layout; // in text: one "%12s" (right-aligned) or "%-12s" with the least number of
                       // characters, "*" for the longest cell, between texts that an empty cell
                       // without a width leaves out: " per %-10s"
-  const char *label;  // heading in HTML and Markdown
+  const char *label;  // heading in HTML, Markdown and reports
   const char *head;   // heading in text; NULL: none
+  double width;       // on pages of a report, relative to the other columns there
 } SbTableColumn;
 
 typedef enum { SB_CELL_ABSENT, SB_CELL_TEXT, SB_CELL_NUMBER, SB_CELL_ANSWER } SbTableCellKind;
 
-// A cell. `text` and `shown` are borrowed; a table copies them.
+// A cell. `text` and `shown` are borrowed; a table copies them. Each cell with `own` must be added
+// to a table.
 typedef struct {
   SbTableCellKind kind;  // ABSENT: an empty cell, and no member in JSON
   double number;         // NaN: an empty cell, null in JSON; of an answer 0 no, 1 yes
@@ -27,6 +31,7 @@ typedef struct {
   const char *shown;     // for people; NULL: `text`, or the number
   const char *si, *unit; // of a number in files and for people, static; NULL: as it is
   int digits;            // of a number with a unit for people, at most
+  char *own;             // for people, and `text` of a text; sb_table_add() frees it. NULL: none
 } SbTableCell;
 
 // Returns a cell with a text; NULL: an empty one.
@@ -61,7 +66,28 @@ static inline SbTableCell sb_cell_number_as(double number, const char *shown) {
   return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number, .shown = shown};
 }
 
+// Returns a cell with a text that sb_table_add() frees; NULL: an empty one.
+static inline SbTableCell sb_cell_own(char *text) {
+  return (SbTableCell){.kind = SB_CELL_TEXT, .own = text};
+}
+
+// Returns a cell without a value in files, whose number people read as `shown`, which
+// sb_table_add() frees; NULL: an empty one.
+static inline SbTableCell sb_cell_shown(char *shown) {
+  return (SbTableCell){.kind = SB_CELL_NUMBER, .number = NAN, .shown = "", .own = shown};
+}
+
 typedef struct SbTable SbTable;
+
+// How a row is marked: by the colours of a report, and a wrong one in HTML by the class "fails".
+typedef enum { SB_TABLE_PLAIN, SB_TABLE_DOUBT, SB_TABLE_WRONG } SbTableMark;
+
+// A row of a table.
+typedef struct {
+  const char *note; // a line of text in place of cells; NULL: cells
+  SbTableMark mark;
+  SbTableCell cell[]; // [columns] of the table; without `own`
+} SbTableRow;
 
 // Returns an empty table with columns[count], borrowed. Freed by sb_table_free().
 SbTable *sb_table_new(const SbTableColumn *columns, size_t count);
@@ -76,11 +102,20 @@ void sb_table_add(SbTable *table, const SbTableCell *cells);
 // The cells of a row for sb_table_add().
 #define SB_CELLS(...) ((const SbTableCell[]){__VA_ARGS__})
 
-// Marks the last row as wrong, in HTML by the class "fails".
-void sb_table_mark(SbTable *table);
+// Marks the last row.
+void sb_table_mark(SbTable *table, SbTableMark mark);
 
-// Adds a line between the rows, in the text alone.
+// Adds a line between the rows: a subheading, in text and reports alone.
 void sb_table_note(SbTable *table, const char *text);
+
+// Returns the columns and writes their number to *count.
+const SbTableColumn *sb_table_columns(const SbTable *table, size_t *count);
+
+// Returns row `index`, counted from 0 with the notes; NULL behind the last. Borrowed.
+const SbTableRow *sb_table_row(const SbTable *table, size_t index);
+
+// Returns what people read of a cell. Freed by g_free().
+char *sb_table_shown(const SbTableCell *cell);
 
 // Returns the table for a terminal: headings, if a column has one, and a line for each row. Freed
 // by g_free().

@@ -162,6 +162,10 @@ static void test_all(void) {
   }
   g_assert_nonnull(strstr(all.out, "\nWarnings\n  "));
   g_assert_nonnull(strstr(all.out, "\n  Stage B "));
+  // The tables of the report, with its groups and all questions of the verdict.
+  g_assert_nonnull(strstr(all.out, "\nWho can press it\n  "));
+  g_assert_nonnull(strstr(all.out, " N  first slip, the force at its peak\n"));
+  g_assert_nonnull(strstr(all.out, "\n  Presses                              no limit is set\n"));
   g_assert_null(strstr(all.out, "Force / N over")); // off a terminal only with --plot
   cli_clear(&all);
   all = CLI("run", "quick-look", "--all", "--plot");

@@ -5,8 +5,8 @@
 #include <string.h>
 
 static const SbTableColumn columns[] = {
-    {"name", "  %-*s", "", ""},
-    {"length_m", " %9s", "length", "length"},
+    {"name", "  %-*s", "", "", 0},
+    {"length_m", " %9s", "length", "length", 0},
     {.key = "known", .label = "known"},
     {.key = "reason", .layout = "  (%s)", .label = "why"},
 };
@@ -21,7 +21,7 @@ static SbTable *make_table(void) {
   sb_table_note(table, "between");
   sb_table_add(table, SB_CELLS(sb_cell_text("=a;\"b\" & c"), sb_cell_number(NAN),
                                sb_cell_answer(NAN), sb_cell_text_as("long", "short")));
-  sb_table_mark(table);
+  sb_table_mark(table, SB_TABLE_WRONG);
   sb_table_add(table, SB_CELLS(sb_cell_text("d"), sb_cell_number_as(5, "five"), {0}, {0}));
   return table;
 }
@@ -97,6 +97,27 @@ static void test_pages(void) {
                                            "| =a;\"b\" & c | - | - | short |\n"));
 }
 
+// What a page of a report reads: rows in their order, notes and marks, and texts that the table
+// took.
+static void test_rows(void) {
+  g_autoptr(SbTable) table = make_table();
+  sb_table_add(table, SB_CELLS(sb_cell_own(g_strdup("own")), sb_cell_shown(g_strdup("1 mm")),
+                               sb_cell_shown(NULL), sb_cell_own(NULL)));
+  size_t count;
+  g_assert_true(sb_table_columns(table, &count) == columns);
+  g_assert_cmpuint(count, ==, G_N_ELEMENTS(columns));
+  g_assert_cmpstr(sb_table_row(table, 1)->note, ==, "between");
+  g_assert_cmpint(sb_table_row(table, 2)->mark, ==, SB_TABLE_WRONG);
+  const SbTableRow *last = sb_table_row(table, 4);
+  g_assert_cmpstr(last->cell[0].text, ==, "own");
+  static const char *const shown[] = {"own", "1 mm", "", ""};
+  for (size_t k = 0; k < count; k++) {
+    g_autofree char *text = sb_table_shown(&last->cell[k]);
+    g_assert_cmpstr(text, ==, shown[k]);
+  }
+  g_assert_null(sb_table_row(table, 5));
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/table/text", test_text);
@@ -104,5 +125,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/table/json", test_json);
   g_test_add_func("/table/members", test_members);
   g_test_add_func("/table/pages", test_pages);
+  g_test_add_func("/table/rows", test_rows);
   return g_test_run();
 }
