@@ -200,6 +200,14 @@ static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport 
   return status;
 }
 
+// Sets the errors of a state whose film has its asperities, from those of its contact and loads.
+static void set_coupled_errors(SbSealState *out, const SbSlidingMemory *memory) {
+  const double contact = memory->last->film.solver.error_contact;
+  out->share_error = contact + out->net_error + out->width_error;
+  out->area_error = contact + out->net_error + out->width_error;
+  sb_sliding_kinetic_errors(out, contact);
+}
+
 // Film, rough contact and friction from one solution each, sliding and at rest.
 static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   SbSlidingMemory *memory = task->memory;
@@ -229,10 +237,7 @@ static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbRep
       return aged;
     }
   }
-  const double contact = film->solver.error_contact;
-  out->share_error = contact + out->net_error + out->width_error;
-  out->area_error = contact + out->net_error + out->width_error;
-  sb_sliding_kinetic_errors(out, contact);
+  set_coupled_errors(out, memory);
   return status != SB_OK ? status : at_rest;
 }
 
@@ -326,8 +331,9 @@ SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, d
   return status;
 }
 
-// Reduces a law's kinetic friction to what the section carries. Where the pressure cannot transmit
-// the shear strength there is no full real contact; a rolling section is not sheared fully.
+// Reduces a law's kinetic friction to what the section carries. Where the pressure limits the shear
+// there is no full real contact, and the film's shear is limited in the same proportion; a rolling
+// section is not sheared fully.
 static void share_kinetic(SbSealState *out) {
   if (!isnan(out->borne_share)) {
     out->real_area_share *= out->area_cut * (out->section == SB_RING_SLIDES ? out->borne_share : 1);
@@ -336,9 +342,9 @@ static void share_kinetic(SbSealState *out) {
     // width.
     out->area_error += out->area_cut < 1 ? out->width_error : 0;
     out->boundary_load *= out->borne_share;
-    out->friction_viscous *= out->borne_share;
+    out->friction_viscous *= out->area_cut * out->borne_share;
     out->boundary_error *= out->borne_share;
-    out->viscous_error *= out->borne_share;
+    out->viscous_error *= out->area_cut * out->borne_share;
     out->friction_error *= out->borne_share;
   }
 }
@@ -348,7 +354,7 @@ void sb_sliding_full_friction(SbSealState *state) {
   if (state->borne_share > 0 && state->area_cut > 0) {
     state->real_area_share /= state->area_cut * slides;
     state->boundary_load /= state->borne_share;
-    state->friction_viscous /= state->borne_share;
+    state->friction_viscous /= state->area_cut * state->borne_share;
   }
 }
 
@@ -508,6 +514,37 @@ void sb_sliding_clear(SbSealState *out) {
 #include "engine/valve/figures/figures.def"
 }
 
+// Film and rough contact of a gasket.
+static SbStatus solve_edges(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
+  sb_sliding_edge_film(out, task);
+  SbStatus status = sb_sliding_edge_contact(out, task, 1, report);
+  status = status == SB_OK ? set_static(out, task, report) : status;
+  set_static_error(out);
+  return status;
+}
+
+SbStatus sb_sliding_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
+  SbSlidingTask quiet = *task;
+  quiet.warnings = NULL;
+  const SbModel *model = task->model;
+  const SbSlidingMemory *memory = task->memory;
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0;
+  sb_sliding_net_error(out, task, &memory->now->fit);
+  if (model->kind == SB_VALVE_GASKET && out->load_net > 0) {
+    return solve_edges(&quiet, out, report);
+  }
+  if (out->film_central > 0 && (coupled || sb_film_kind(model->film)->coupled)) {
+    sb_sliding_film_errors(out, memory->last, &memory->now->fit);
+  } else if (out->film_central > 0) {
+    sb_sliding_law_errors(out);
+  }
+  if (coupled) {
+    set_coupled_errors(out, memory);
+    return SB_OK;
+  }
+  return sb_sliding_rough_contact(out, &quiet, 1, report);
+}
+
 // Fitment, film and friction; a ring dragged as given, else as it is known.
 SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report) {
@@ -523,10 +560,7 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
   if (task->model->kind == SB_VALVE_GASKET && out->load_net > 0) {
     sb_sliding_set_edges(out, &task->memory->now->fit);
     task->memory->last = &task->memory->plane; // which has none
-    sb_sliding_edge_film(out, task);
-    SbStatus edges = sb_sliding_edge_contact(out, task, 1, first);
-    edges = edges == SB_OK ? set_static(out, task, first) : edges;
-    set_static_error(out);
+    SbStatus edges = solve_edges(task, out, first);
     return edges != SB_OK ? edges : status;
   }
   if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {

@@ -227,6 +227,35 @@ static void tell_half_plane(const SbSlidingTask *task, SbStatus status, const Sb
   }
 }
 
+double sb_sliding_surface_error(const SbSealState *state, const SbSlidingSolved *solved,
+                                const SbFit *fit) {
+  if (!solved->fitted) { // on the half-plane: that of its load
+    return SB_FILM_LAW_LOAD_POWER * state->net_error;
+  }
+  const double inlet = state->peak_error + 0.5 * state->width_error;
+  if (!sb_fit_kind(fit->model)->section) {
+    // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
+    // its inlet, which is proportional to peak/sqrt(width). That of a disc, whose pressure is
+    // tabulated, has an error of up to 20 times their relative errors (campaign estimates).
+    return 0.8 * 10 * inlet;
+  }
+  // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
+  // its inlet, which is proportional to peak/sqrt(width) but depends on few nodes of the ring's
+  // mesh: its error is up to five times their relative errors. An estimate is a third of that.
+  const double ring = 0.8 * 5 / 3 * inlet;
+  // A dragged one's scatters by up to 7 % between the meshes and path tolerances tried (by 0.3 to
+  // 0.8 % rms over the radial space of piston.scene): a third of that.
+  static const double DRAGGED = 0.0233;
+  return fit->ring.drag != 0 ? fmax(ring, DRAGGED) : ring;
+}
+
+void sb_sliding_film_errors(SbSealState *out, const SbSlidingSolved *solved, const SbFit *fit) {
+  const SbFilmSolverInfo *solver = &solved->film.solver;
+  const double surface = sb_sliding_surface_error(out, solved, fit);
+  out->central_error = solver->error_film_central + surface;
+  out->film_error = fmax(solver->error_film_min + surface, out->central_error);
+}
+
 // A seal's film figures are those of `solved`; NaN stays where the solver stopped before its first
 // solution (false).
 bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
@@ -239,24 +268,7 @@ bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbSta
   out->layer = film->flow > 0 || film->flow < 0 ? fabs(film->flow / solved->speed) : 0;
   out->film_min = film->film_min;
   out->film_central = film->film_central;
-  double ring = SB_FILM_LAW_LOAD_POWER * out->net_error; // on the half-plane: that of its load
-  if (solved->fitted && !sb_fit_kind(fit->model)->section) {
-    // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
-    // its inlet, which is proportional to peak/sqrt(width). That of a disc, whose pressure is
-    // tabulated, has an error of up to 20 times their relative errors (campaign estimates).
-    ring = 0.8 * 10 * (out->peak_error + 0.5 * out->width_error);
-  } else if (solved->fitted) {
-    // A thin film is proportional to the power -0.8 of the coefficient of the pressure's root at
-    // its inlet, which is proportional to peak/sqrt(width) but depends on few nodes of the ring's
-    // mesh: its error is up to five times their relative errors. An estimate is a third of that.
-    ring = 0.8 * 5 / 3 * (out->peak_error + 0.5 * out->width_error);
-    // A dragged one's scatters by up to 7 % between the meshes and path tolerances tried (by 0.3 to
-    // 0.8 % rms over the radial space of piston.scene): a third of that.
-    static const double DRAGGED = 0.0233;
-    ring = fit->ring.drag != 0 ? fmax(ring, DRAGGED) : ring;
-  }
-  out->central_error = film->solver.error_film_central + ring;
-  out->film_error = fmax(film->solver.error_film_min + ring, out->central_error);
+  sb_sliding_film_errors(out, solved, fit);
   return true;
 }
 
@@ -289,8 +301,7 @@ static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *prob
   }
 }
 
-// Sets film_error and central_error of a film by a law from load_error; NaN if the load is exact.
-static void set_law_error(SbSealState *out) {
+void sb_sliding_law_errors(SbSealState *out) {
   out->film_error = out->central_error =
       out->net_error > 0 ? SB_FILM_LAW_LOAD_POWER * out->net_error : NAN;
 }
@@ -325,7 +336,7 @@ SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbRe
   if (solved) {
     out->film_reynolds = out->film_central;
   } else {
-    set_law_error(out);
+    sb_sliding_law_errors(out);
     sb_sliding_limit_law(out, task);
   }
   // End pressures that the fitted body carries may open the half-plane's contact or prevent its

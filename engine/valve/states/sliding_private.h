@@ -34,6 +34,12 @@ typedef struct {
   bool on_base;       // solve it on the mesh of the last solution of `own` if possible
 } SbSlidingSolved;
 
+// Relative changes of a fit's load, contact width and peak pressure per newton of the friction that
+// drags its ring, magnitudes [1/N].
+typedef struct {
+  double load, width, peak;
+} SbSlidingPull;
+
 // The last fit of one way, with its ring.
 typedef struct {
   SbFit fit;
@@ -48,6 +54,7 @@ typedef struct {
                // agree because the friction jumps; else 0
   SbSlidingLaw found; // law of the friction of the film on this ring
   SbSlidingLaw guess; // law of the friction by closed forms
+  SbSlidingPull pull; // how the fit depends on the friction that drags it
 } SbSlidingFitment;
 
 // Number of films of a state: on the half-plane, on the fitted body, at rest.
@@ -88,6 +95,7 @@ typedef struct {
   double strain;           // pressure difference (left minus right) divided by the modulus [1]
   SbSlidingLaw law, found; // as in SbSlidingFitment
   SbSlidingLaw guess;      // as in SbSlidingFitment
+  SbSlidingPull pull;      // as in SbSlidingFitment
 } SbSlidingStart;
 
 // The film whose mesh the memory's solver holds. Films with nearly equal values are solved on this
@@ -192,6 +200,15 @@ SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *la
 SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report);
 
+// Sets net_error from load_error and width_error, for the fit of the state.
+void sb_sliding_net_error(SbSealState *out, const SbSlidingTask *task, const SbFit *fit);
+
+// Computes again, without warnings, the errors that follow from load_error, width_error and
+// peak_error of a state that sb_sliding_solve_with() has computed and the caller has changed: those
+// of net load, film, asperities, and friction. The task's memory must hold fit and film of the
+// state.
+SbStatus sb_sliding_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
 // Computes the values at rest of a sliding state with coupled asperities, for which they were
 // omitted (rest_waits).
 SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report);
@@ -213,6 +230,17 @@ SbStatus sb_sliding_solve_rough(const SbSlidingTask *task, SbSlidingSolved *out,
 // `status`. Returns false, and leaves them NaN, if the solver has no solution.
 bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
                           const SbFit *fit);
+
+// Returns the relative error of a solved film that the errors of the surface cause on which it was
+// solved: those of the fit's peak and width, or of the net load on the half-plane.
+double sb_sliding_surface_error(const SbSealState *state, const SbSlidingSolved *solved,
+                                const SbFit *fit);
+
+// Sets film_error and central_error of a solved film from the errors of its solver and its surface.
+void sb_sliding_film_errors(SbSealState *out, const SbSlidingSolved *solved, const SbFit *fit);
+
+// Sets film_error and central_error of a film by a law from net_error; NaN if the load is exact.
+void sb_sliding_law_errors(SbSealState *out);
 
 // For a film by a law: sets `layer` to half of film_central (thesis eq. 5.20), but at most the
 // supply's layer, and reduces film_min and film_central accordingly.
