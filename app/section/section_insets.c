@@ -1,13 +1,12 @@
-// The two insets on one seal: contact pressure over the bore, to scale axially and radially, and
-// the film, whose radial scale is blown up by a factor that is written on it.
-//
-// Pressure is the profile's total contact pressure with the fluid's outside the contact; its scale
-// is the same over the whole film. The film inset leaves the roughness out and says so. Where the
-// seal is off the land or the run kept no profile, the inset says that instead.
-#include "app/chart/data.h"
-#include "app/section/section_private.h"
-
+// The two insets on one seal: the contact pressure over the bore, to scale axially and radially,
+// and the film, whose radial scale is enlarged by a factor that the inset states. Both scales are
+// the same over the run. The pressure is the profile's total contact pressure, with the fluid's
+// outside of the contact. The film inset omits the roughness and states that. Where the seal is off
+// the land or the run stored no profile, the inset states this.
 #include "app/base/figure_text.h"
+#include "app/chart/data.h"
+#include "app/draw/axis.h"
+#include "app/section/section_private.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -17,463 +16,486 @@
 enum { CURVE_MAX = 2000 };
 
 typedef struct {
+  SbSection *section;
+  SbDrawList *list;
+  const SbPalette *palette;
+  int seal;
+  bool gasket;
+  SbColor color;       // of the seal
+  const SbColor *body; // of what slides over it: housing, or stem below a gasket
+  const SbSealFrame *frame;
+  const SbContactProfile *profile; // NULL: none
+  bool contact;                    // the seal is in contact with the bore
   SbRect rect;
-  double centre, scale; // seal's x in the middle [m], px per m
+  double right, low;                  // right and lower end of `rect` [px]
+  SbScale x;                          // position in the seal's frame [m]
+  SbScale y;                          // pressure [Pa] or film [m], 0 at the line of the contact
+  double left_contact, right_contact; // ends of the contact [px]
 } Inset;
 
-static double inset_x(const Inset *inset, double x) {
-  return inset->rect.x + inset->rect.width / 2 + (x - inset->centre) * inset->scale;
+// Positions that both insets show [m]: *range in total, about *centre.
+static void range_of(const SbSection *section, double *centre, double *range) {
+  const int seal = section->view->inset_seal;
+  const double left = section->limits.contact_left[seal];
+  const double right = section->limits.contact_right[seal];
+  *centre = (left + right) / 2;
+  *range = fmax(1.9 * (right - left), 0.75 * sb_model_seal(section->model, seal)->section_diameter);
 }
 
-// Thins a profile to the pixels of an inset: runs of samples, ends kept. Returns the point count.
-// Points are as far apart as makes a curve that rises and falls twice fit into CURVE_MAX.
-static size_t curve(const Inset *inset, const SbContactProfile *profile, const double *value,
-                    double base, double px, double low, SbPoint *points) {
+// Returns an inset whose values up to `full` reach from the line of the contact to `top` [px].
+static Inset make_inset(SbSection *section, const SbRect *rect, double line, double full,
+                        double top) {
+  const int seal = section->view->inset_seal;
+  const SbPalette *palette = section->palette;
+  const SbSealFrame *frame = &section->instant->frame->seal[seal];
+  double centre, range;
+  range_of(section, &centre, &range);
+  Inset inset = {
+      .section = section,
+      .list = section->list,
+      .palette = palette,
+      .seal = seal,
+      .gasket = section->valve.gasket,
+      .color = palette->seal[seal],
+      .body = section->valve.gasket ? &palette->stem : &palette->housing,
+      .frame = frame,
+      .profile = section->instant->profile[seal],
+      .contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left,
+      .rect = *rect,
+      .right = rect->x + rect->width,
+      .low = rect->y + rect->height,
+      .x = {centre - range / 2, centre + range / 2, rect->x, rect->x + rect->width, false},
+      .y = {0, full, line, top, false}};
+  inset.left_contact = sb_axis_at(&inset.x, frame->contact_left);
+  inset.right_contact = sb_axis_at(&inset.x, frame->contact_right);
+  return inset;
+}
+
+// Thins the values of the profile to the pixels of the inset, not below `low`: runs of samples,
+// ends kept. Returns the point count. Points are as far apart as makes a curve that rises and falls
+// twice fit into CURVE_MAX.
+static size_t curve(const Inset *in, const double *value, double low, SbPoint *points) {
+  const SbRect *rect = &in->rect;
+  const double length = rect->width + 4 * rect->height + 300;
+  const double step = fmax(0.6, length / (CURVE_MAX - 2));
   size_t count = 0;
-  double way = (double)inset->rect.width + 4 * (double)inset->rect.height + 300;
-  double step = fmax(0.6, way / (CURVE_MAX - 2));
-  for (size_t i = 0; i < profile->count; i++) {
-    double x = inset_x(inset, profile->x[i]);
-    if (x < inset->rect.x - 60 || x > inset->rect.x + inset->rect.width + 60) {
+  for (size_t i = 0; i < in->profile->count && count < CURVE_MAX; i++) {
+    const double x = sb_axis_at(&in->x, in->profile->x[i]);
+    if (x < rect->x - 60 || x > in->right + 60) {
       continue;
     }
-    double y = MIN(base - value[i] * px, low);
-    if (count > 0 && i + 1 < profile->count) {
-      double dx = x - points[count - 1].x, dy = y - points[count - 1].y;
-      if (dx * dx + dy * dy < step * step) {
-        continue;
-      }
+    const double y = fmin(sb_axis_at(&in->y, value[i]), low);
+    if (count == 0 || i + 1 == in->profile->count ||
+        hypot(x - points[count - 1].x, y - points[count - 1].y) >= step) {
+      points[count++] = (SbPoint){x, y};
     }
-    if (count == CURVE_MAX) {
-      break;
-    }
-    points[count++] = (SbPoint){x, y};
   }
   return count;
 }
 
-// The seal's name and what is shown of it, in brief where the frame is too narrow for all of it.
-static void inset_title(SbSection *section, const Inset *inset, int seal, const char *what,
-                        const char *brief) {
-  const SbPalette *palette = section->palette;
-  const char *const name = sb_chart_seal_name(section->model, seal);
-  double y = inset->rect.y - 9;
-  sb_draw_text(section->list, inset->rect.x, y, 13, 700, SB_LEFT, palette->ink, name);
-  double width = sb_text_width(section->text, name, 13, 700);
-  if (width + sb_text_width(section->text, what, 13, 400) > inset->rect.width) {
-    what = brief;
+// Fills a rectangle, from corner to corner.
+static void fill(const Inset *in, double x, double y, double right, double low, SbColor color) {
+  sb_draw_rect(in->list, x, y, right - x, low - y, color)->feather = false;
+}
+
+// Fills what is below `top` with the fluids on the left and right of x = `split`.
+static void draw_fluids(const Inset *in, double top, double split) {
+  fill(in, in->rect.x, top, split, in->low,
+       sb_palette_fluid(in->palette, in->frame->pressure_left));
+  fill(in, split, top, in->right, in->low,
+       sb_palette_fluid(in->palette, in->frame->pressure_right));
+}
+
+// Draws the frame with the seal's name and its content, in brief where the frame is too narrow.
+static void draw_frame(const Inset *in, const char *content, const char *brief) {
+  const SbRect *rect = &in->rect;
+  const char *const name = sb_chart_seal_name(in->section->model, in->seal);
+  const double width = sb_text_width(in->section->text, name, 13, 700);
+  sb_draw_clip(in->list, NULL);
+  sb_draw_round_frame(in->list, rect->x + 0.5, rect->y + 0.5, rect->width - 1, rect->height - 1, 4,
+                      1.4, in->color);
+  sb_draw_text(in->list, rect->x, rect->y - 9, 13, 700, SB_LEFT, in->palette->ink, name);
+  if (width + sb_text_width(in->section->text, content, 13, 400) > rect->width) {
+    content = brief;
   }
-  sb_draw_text(section->list, inset->rect.x + width, y, 13, 400, SB_LEFT, palette->ink, what);
+  sb_draw_text(in->list, rect->x + width, rect->y - 9, 13, 400, SB_LEFT, in->palette->ink, content);
 }
 
-static void frame_inset(SbSection *section, const Inset *inset, int seal) {
-  const SbRect *rect = &inset->rect;
-  sb_draw_clip(section->list, NULL);
-  sb_draw_round_frame(section->list, rect->x + 0.5, rect->y + 0.5, rect->width - 1,
-                      rect->height - 1, 4, 1.4, section->palette->seal[seal]);
-}
+// Contact pressure --------------------------------------------------------------------------------
 
-static void hatch_rect(SbSection *section, double x, double y, double width, double height) {
-  SbDrawItem *item = sb_draw_rect(section->list, x, y, width, height, section->palette->housing);
-  item->feather = false;
-  item->hatch =
-      sb_draw_hatch(section->palette->housing_hatch, SB_HATCH_PITCH, SB_HATCH_WIDTH, 1, 0);
-}
-
-static void draw_pressure(SbSection *section, const Inset *inset, int seal) {
-  const SbPalette *palette = section->palette;
-  SbDrawList *list = section->list;
-  const SbRect *rect = &inset->rect;
-  const SbSealFrame *frame = &section->instant->frame->seal[seal];
-  const SbContactProfile *profile = section->instant->profile[seal];
-  bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
-  // Pressure rises from the line of the contact into what slides: the housing above rings, the stem
-  // below gaskets.
-  const bool gasket = section->valve.gasket;
-  const double up = gasket ? -1 : 1;
-  double bore = rect->y + (gasket ? 0.5 : 0.74) * rect->height;
-  char text[96], value[SB_SECTION_NUMBER];
-  const SbColor *body = gasket ? &palette->stem : &palette->housing;
-
-  // Fluid, then the housing as it stands over the seal, then the ring.
-  sb_draw_clip(list, rect);
-  double middle = inset_x(inset, (frame->contact_left + frame->contact_right) / 2);
-  middle = CLAMP(middle, rect->x, rect->x + rect->width);
-  sb_draw_rect(list, rect->x, rect->y, middle - rect->x, rect->height,
-               sb_palette_fluid(palette, frame->pressure_left))
-      ->feather = false;
-  sb_draw_rect(list, middle, rect->y, rect->x + rect->width - middle, rect->height,
-               sb_palette_fluid(palette, frame->pressure_right))
-      ->feather = false;
-  SbSectionFrameMap map =
-      sb_section_frame_map(inset_x(inset, -sb_section_origin(section, seal)),
-                           bore + section->valve.bore * inset->scale, inset->scale, rect);
+// Fluid, then the housing over the seal, then the ring.
+static void draw_parts(const Inset *in) {
+  SbSection *section = in->section;
+  const double line = in->y.p0, scale = in->rect.width / (in->x.hi - in->x.lo);
+  const double bore = section->valve.bore;
+  draw_fluids(in, in->rect.y,
+              CLAMP((in->left_contact + in->right_contact) / 2, in->rect.x, in->right));
+  const SbSectionFrameMap map =
+      sb_section_frame_map(sb_axis_at(&in->x, -sb_section_origin(section, in->seal)),
+                           line + bore * scale, scale, &in->rect);
   sb_section_draw_housing(section, &map);
-  if (gasket) {
+  if (in->gasket) {
     sb_section_draw_stem(section, &map);
   }
-  const double deep = section->valve.bore - section->valve.floor;
-  const SbSectionPlane plane = {inset_x(inset, 0), inset->scale, 0, bore + deep * inset->scale, 0,
-                                -inset->scale};
-  sb_section_draw_ring(section, seal, &plane);
-  if (gasket) {
-    const double free = sb_model_seal(section->model, seal)->inner_diameter / 2;
-    const double line = bore + (section->valve.bore - free) * inset->scale;
-    sb_draw_line(list, rect->x, line, rect->x + rect->width, line, 1.2, palette->seal[seal])->dash =
-        &sb_dash_dimension;
-    SbSectionLabel style = {11, 400, SB_RIGHT, palette->seal[seal], body};
-    sb_section_label(section, rect->x + rect->width - 8, line + 14, &style, _("free bore"));
+  const SbSectionPlane plane = {
+      sb_axis_at(&in->x, 0), scale, 0, line + (bore - section->valve.floor) * scale, 0, -scale};
+  sb_section_draw_ring(section, in->seal, &plane);
+  if (in->gasket) {
+    const double free = sb_model_seal(section->model, in->seal)->inner_diameter / 2;
+    const double y = line + (bore - free) * scale;
+    const SbSectionLabel style = {11, 400, SB_RIGHT, in->color, in->body};
+    sb_draw_line(in->list, in->rect.x, y, in->right, y, 1.2, in->color)->dash = &sb_dash_dimension;
+    sb_section_label(section, in->right - 8, y + 14, &style, _("free bore"));
   }
+}
 
-  // Pressure rises from the bore line into the housing.
-  const double room = gasket ? rect->y + rect->height - bore : bore - rect->y;
-  double px = (room - 34) / fmax(section->limits.pressure_max, 1);
-  double left_px = inset_x(inset, frame->contact_left);
-  double right_px = inset_x(inset, frame->contact_right);
-  if (profile != NULL && profile->count > 1 && contact) {
-    g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
-    size_t count = curve(inset, profile, profile->pressure, bore, up * px,
-                         gasket ? rect->y + rect->height : bore, points + 1);
-    // Outside the contact as far as the pressure is the fluid's it is drawn in the fluid's colour;
-    // a film's inlet belongs to the seal.
-    SbPoint *first = points + 1;
-    double near = 0.01 * section->limits.pressure_max * px;
-    double left_y = bore - up * (double)frame->pressure_left * px;
-    double right_y = bore - up * (double)frame->pressure_right * px;
-    size_t begin = 0, end = count;
-    while (begin + 1 < count && (double)first[begin].x < left_px - 0.3 &&
-           fabs((double)first[begin + 1].y - left_y) < near) {
-      begin++;
-    }
-    while (end > begin + 1 && (double)first[end - 1].x > right_px + 0.3 &&
-           fabs((double)first[end - 2].y - right_y) < near) {
-      end--;
-    }
-    SbPoint *from = first + begin;
-    size_t inside = end - begin;
-    SbPoint before = *(from - 1), after = first[end];
-    from[-1] = (SbPoint){from[0].x, bore};
-    first[end] = (SbPoint){from[inside - 1].x, bore};
-    SbColor fill = palette->seal[seal];
-    fill.a = 0.3;
-    sb_draw_fill(list, from - 1, inside + 2, fill)->feather = false;
-    from[-1] = before;
-    first[end] = after;
-    sb_draw_stroke(list, from, inside, 2.4, palette->seal[seal]);
-    left_px = fmin(left_px, (double)from[0].x);
-    right_px = fmax(right_px, (double)from[inside - 1].x);
+// Draws the pressure from the line of the contact into what slides: the housing above rings, the
+// stem below gaskets. Writes the ends of what is drawn, which includes the contact, to end[2] [px].
+// Where the pressure outside of the contact is the fluid's it is left to draw_fluid_pressure(); a
+// film's inlet belongs to the seal.
+static void draw_pressure_curve(const Inset *in, double *end) {
+  if (in->profile == NULL || in->profile->count < 2) {
+    return;
   }
-  const double side[2][3] = {{rect->x, left_px, sb_seal_step_left(frame)},
-                             {right_px, rect->x + rect->width, sb_seal_step_right(frame)}};
-  for (int i = 0; i < 2 && contact; i++) {
-    double height = side[i][2] * px;
-    if (height < 1) {
+  g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
+  const double line = in->y.p0;
+  const double near = 0.01 * fabs(sb_axis_at(&in->y, in->section->limits.pressure_max) - line);
+  const double left = sb_axis_at(&in->y, in->frame->pressure_left);
+  const double right = sb_axis_at(&in->y, in->frame->pressure_right);
+  SbPoint *first = points + 1;
+  size_t count = curve(in, in->profile->pressure, in->gasket ? in->low : line, first);
+  while (count > 1 && first->x < end[0] - 0.3 && fabs(first[1].y - left) < near) {
+    first++;
+    count--;
+  }
+  while (count > 1 && first[count - 1].x > end[1] + 0.3 &&
+         fabs(first[count - 2].y - right) < near) {
+    count--;
+  }
+  end[0] = fmin(end[0], first[0].x);
+  end[1] = fmax(end[1], first[count - 1].x);
+  first[-1] = (SbPoint){first[0].x, line};
+  first[count] = (SbPoint){first[count - 1].x, line};
+  const SbColor pale = {in->color.r, in->color.g, in->color.b, 0.3};
+  sb_draw_fill(in->list, first - 1, count + 2, pale)->feather = false;
+  sb_draw_stroke(in->list, first, count, 2.4, in->color);
+}
+
+// The fluid's pressure on the left and right of end[2].
+static void draw_fluid_pressure(const Inset *in, const double *end) {
+  const double step[2] = {sb_seal_step_left(in->frame), sb_seal_step_right(in->frame)};
+  const double from[2] = {in->rect.x, end[1]}, to[2] = {end[0], in->right};
+  const SbColor color = in->palette->fluid_line;
+  for (int i = 0; i < 2; i++) {
+    const double line = in->y.p0, y = sb_axis_at(&in->y, step[i]);
+    if (fabs(y - line) < 1) {
       continue;
     }
-    SbColor wash = palette->fluid_line;
-    wash.a = 0.16;
-    const double top = gasket ? bore : bore - height, line = bore - up * height;
-    sb_draw_rect(list, side[i][0], top, side[i][1] - side[i][0], height, wash)->feather = false;
-    sb_draw_line(list, side[i][0], line, side[i][1], line, 2, palette->fluid_line);
-    snprintf(text, sizeof text, _("fluid %s"), sb_section_megapascal(value, side[i][2]));
-    SbSectionLabel style = {11, 600, i == 0 ? SB_LEFT : SB_RIGHT, palette->fluid_line, body};
-    double x = i == 0 ? rect->x + 8 : rect->x + rect->width - 8;
-    if (sb_text_width(section->text, text, 11, 600) + 14 < side[i][1] - side[i][0]) {
-      sb_section_label(section, x, gasket ? line + 16 : line - 7, &style, text);
+    char text[96], value[SB_SECTION_NUMBER];
+    const SbSectionLabel style = {11, 600, i == 0 ? SB_LEFT : SB_RIGHT, color, in->body};
+    fill(in, from[i], fmin(y, line), to[i], fmax(y, line),
+         (SbColor){color.r, color.g, color.b, 0.16});
+    sb_draw_line(in->list, from[i], y, to[i], y, 2, color);
+    snprintf(text, sizeof text, _("fluid %s"), sb_section_megapascal(value, step[i]));
+    if (sb_text_width(in->section->text, text, 11, 600) + 14 < to[i] - from[i]) {
+      sb_section_label(in->section, i == 0 ? from[i] + 8 : to[i] - 8, in->gasket ? y + 16 : y - 7,
+                       &style, text);
     }
   }
+}
 
-  // Peak, and the contact's width.
-  left_px = inset_x(inset, frame->contact_left);
-  right_px = inset_x(inset, frame->contact_right);
-  if (contact) {
-    double peak_x = (left_px + right_px) / 2;
-    const double peak_pressure = frame->pressure_peak;
-    if (profile != NULL) {
-      double best = 0;
-      for (size_t i = 0; i < profile->count; i++) {
-        if (profile->pressure[i] > best) {
-          best = profile->pressure[i];
-          peak_x = inset_x(inset, profile->x[i]);
-        }
-      }
+static void label_peak(const Inset *in) {
+  const SbContactProfile *profile = in->profile;
+  const double pressure = in->frame->pressure_peak;
+  double x = (in->left_contact + in->right_contact) / 2, greatest = 0;
+  for (size_t i = 0; profile != NULL && i < profile->count; i++) {
+    if (profile->pressure[i] > greatest) {
+      greatest = profile->pressure[i];
+      x = sb_axis_at(&in->x, profile->x[i]);
     }
-    const int figure = sb_figure_find(seal == SB_OUTER ? "seals.outer.pressure_peak_Pa"
-                                                       : "seals.inner.pressure_peak_Pa");
-    SbSectionLabel peak = {13, 700, SB_MIDDLE, palette->seal[seal], body};
-    sb_section_label(section, CLAMP(peak_x, rect->x + 50, rect->x + rect->width - 50),
-                     bore - up * peak_pressure * px + (gasket ? 18 : -9), &peak,
-                     sb_figure_text(value, figure, peak_pressure, NAN));
-    double y = bore + up * 17;
-    SbColor line = palette->ink;
-    snprintf(text, sizeof text, _("contact %s"),
-             sb_section_millimetre(value, frame->contact_right - frame->contact_left));
-    sb_draw_line(list, left_px, y - 5, left_px, y + 5, 1.2, line);
-    sb_draw_line(list, right_px, y - 5, right_px, y + 5, 1.2, line);
-    sb_draw_line(list, left_px, y, right_px, y, 1.2, line);
-    SbSectionLabel style = {11, 600, SB_MIDDLE, palette->ink, &palette->panel};
-    bool inside = right_px - left_px > sb_text_width(section->text, text, 11, 600) + 30;
-    sb_section_label(section, (left_px + right_px) / 2,
-                     inside   ? y + 4
-                     : gasket ? y - 10
-                              : fmin(y + 20, (double)(rect->y + rect->height) - 6),
-                     &style, text);
+  }
+  char value[SB_SECTION_NUMBER];
+  const int figure = sb_figure_find(in->seal == SB_OUTER ? "seals.outer.pressure_peak_Pa"
+                                                         : "seals.inner.pressure_peak_Pa");
+  const SbSectionLabel style = {13, 700, SB_MIDDLE, in->color, in->body};
+  sb_section_label(in->section, CLAMP(x, in->rect.x + 50, in->right - 50),
+                   sb_axis_at(&in->y, pressure) + (in->gasket ? 18 : -9), &style,
+                   sb_figure_text(value, figure, pressure, NAN));
+}
+
+// The width of the contact, as a dimension.
+static void label_contact(const Inset *in) {
+  const double left = in->left_contact, right = in->right_contact;
+  const double y = in->y.p0 + (in->gasket ? -17 : 17);
+  const SbColor ink = in->palette->ink;
+  char text[96], value[SB_SECTION_NUMBER];
+  snprintf(text, sizeof text, _("contact %s"),
+           sb_section_millimetre(value, in->frame->contact_right - in->frame->contact_left));
+  sb_draw_line(in->list, left, y - 5, left, y + 5, 1.2, ink);
+  sb_draw_line(in->list, right, y - 5, right, y + 5, 1.2, ink);
+  sb_draw_line(in->list, left, y, right, y, 1.2, ink);
+  const SbSectionLabel style = {11, 600, SB_MIDDLE, ink, &in->palette->panel};
+  const bool inside = right - left > sb_text_width(in->section->text, text, 11, 600) + 30;
+  sb_section_label(in->section, (left + right) / 2,
+                   inside       ? y + 4
+                   : in->gasket ? y - 10
+                                : fmin(y + 20, in->low - 6),
+                   &style, text);
+}
+
+static void draw_pressure(SbSection *section, const SbRect *rect) {
+  const bool gasket = section->valve.gasket;
+  const double line = rect->y + (gasket ? 0.5 : 0.74) * rect->height;
+  const Inset inset = make_inset(section, rect, line, fmax(section->limits.pressure_max, 1),
+                                 gasket ? rect->y + rect->height - 34 : rect->y + 34);
+  sb_draw_clip(section->list, rect);
+  draw_parts(&inset);
+  if (inset.contact) {
+    double end[2] = {inset.left_contact, inset.right_contact};
+    draw_pressure_curve(&inset, end);
+    draw_fluid_pressure(&inset, end);
+    label_peak(&inset);
+    label_contact(&inset);
   } else {
-    SbSectionLabel style = {12, 600, SB_MIDDLE, palette->seal[seal], &palette->panel};
+    const SbSectionLabel style = {12, 600, SB_MIDDLE, inset.color, &inset.palette->panel};
     sb_section_label(section, rect->x + rect->width / 2, rect->y + 24, &style,
                      gasket ? _("around the neck: no contact") : _("off the land: no contact"));
   }
-  frame_inset(section, inset, seal);
-  inset_title(section, inset, seal,
-              gasket ? _(", contact pressure on the stem") : _(", contact pressure on the bore"),
-              _(", pressure"));
+  draw_frame(&inset,
+             gasket ? _(", contact pressure on the stem") : _(", contact pressure on the bore"),
+             _(", pressure"));
 }
 
-// Least round number (1, 2, 3, 4, 5, 6, 8 times a power of ten) that is not below v.
-static double nice_above(double v) {
-  static const double round[] = {1, 2, 3, 4, 5, 6, 8};
-  double unit = pow(10, floor(log10(v)));
-  for (size_t i = 0; i < G_N_ELEMENTS(round); i++) {
-    if (v <= round[i] * unit * (1 + 1e-12)) {
-      return round[i] * unit;
-    }
-  }
-  return 10 * unit;
-}
+// Film --------------------------------------------------------------------------------------------
 
-// Share of the contact's load that asperities carry, or a negative number.
+// Returns the fraction of the contact's load that asperities carry, or a negative number.
 static double asperity_share(const SbContactProfile *profile, const SbSealFrame *frame) {
   // Asperities carry a part of the pressure that the film's own solution has.
   const double *pressure =
       profile->film_pressure != NULL ? profile->film_pressure : profile->pressure;
   double carried = 0, total = 0;
   for (size_t i = 1; i < profile->count; i++) {
-    double x = (profile->x[i] + profile->x[i - 1]) / 2;
-    if (x < frame->contact_left || x > frame->contact_right) {
-      continue;
+    const double x = (profile->x[i] + profile->x[i - 1]) / 2;
+    const double dx = profile->x[i] - profile->x[i - 1];
+    if (x >= frame->contact_left && x <= frame->contact_right) {
+      carried += dx * (profile->asperity_pressure[i] + profile->asperity_pressure[i - 1]) / 2;
+      total += dx * (pressure[i] + pressure[i - 1]) / 2;
     }
-    double dx = profile->x[i] - profile->x[i - 1];
-    carried += dx * (profile->asperity_pressure[i] + profile->asperity_pressure[i - 1]) / 2;
-    total += dx * (pressure[i] + pressure[i - 1]) / 2;
   }
   return total > 0 ? carried / total : -1;
 }
 
-static void draw_film(SbSection *section, const Inset *inset, int seal) {
-  const SbPalette *palette = section->palette;
-  SbDrawList *list = section->list;
-  const SbRect *rect = &inset->rect;
-  const SbFrame *whole = section->instant->frame;
-  const SbSealFrame *frame = &whole->seal[seal];
-  const SbContactProfile *profile = section->instant->profile[seal];
-  bool contact = frame->land_fraction > 0 && frame->contact_right > frame->contact_left;
-  double bore = rect->y + MIN(32, 0.2 * rect->height);
-  double low = rect->y + rect->height;
-  double right = rect->x + rect->width;
-  char text[192], value[SB_SECTION_NUMBER];
-
-  sb_draw_clip(list, rect);
-  // The fluid changes where the film ends: at the contact's edge, or where a solved film opens.
-  double film_end = frame->contact_right;
+// The fluid changes where the film ends: at the contact's edge, or where a solved film opens.
+static double film_end(const Inset *in) {
+  const SbContactProfile *profile = in->profile;
+  double end = in->frame->contact_right;
   for (size_t i = profile != NULL ? profile->count : 0; i-- > 0;) {
-    if (profile->film[i] > 0 && profile->film[i] < 2 * frame->film_central) {
-      film_end = fmax(film_end, profile->x[i]);
+    if (profile->film[i] > 0 && profile->film[i] < 2 * in->frame->film_central) {
+      end = fmax(end, profile->x[i]);
       break;
     }
   }
-  double split = contact ? CLAMP(inset_x(inset, film_end), (double)rect->x, right) : right;
-  sb_draw_rect(list, rect->x, bore, split - rect->x, low - bore,
-               sb_palette_fluid(palette, frame->pressure_left))
-      ->feather = false;
-  sb_draw_rect(list, split, bore, right - split, low - bore,
-               sb_palette_fluid(palette, frame->pressure_right))
-      ->feather = false;
-  hatch_rect(section, rect->x, rect->y, rect->width, bore - rect->y);
-
-  // The ring's surface under the bore, on a scale that holds over the film.
-  double full = nice_above(fmax(1.35 * section->limits.film_max, 1e-12));
-  double px = 0.82 * (low - bore) / full;
-  bool film = contact && profile != NULL && profile->count > 1 && frame->film_central > 0;
-  double body_top = low;
-  if (film) {
-    g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
-    size_t count = curve(inset, profile, profile->film, bore, -px, low + 40, points);
-    if (count > 1) {
-      // A solved film ends where it ruptures; beyond, the gap opens by micrometres: a vertical
-      // here.
-      SbPoint last = points[count - 1];
-      bool rupture = (double)last.y < low && last.x < right;
-      points[count] = (SbPoint){last.x, (low + 40)};
-      points[count + 1] = (SbPoint){points[0].x, (low + 40)};
-      sb_draw_fill(list, points, count + 2,
-                   sb_color_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
-          ->feather = false;
-      sb_draw_stroke(list, points, rupture ? count + 1 : count, 2.4, palette->seal[seal]);
-      if (rupture) {
-        sb_draw_disc(list, last.x, last.y, 4.6, palette->panel);
-        sb_draw_disc(list, last.x, last.y, 3.2, palette->seal[seal]);
-      }
-      body_top = bore + frame->film_central * px;
-    }
-  } else if (contact) {
-    double left_px = inset_x(inset, frame->contact_left);
-    sb_draw_rect(list, left_px, bore, split - left_px, low - bore,
-                 sb_color_mix(palette->panel, palette->seal[seal], palette->dark ? 0.24 : 0.22))
-        ->feather = false;
-    body_top = bore;
-  }
-  sb_draw_line(list, rect->x, bore, right, bore, 1.8, palette->outline);
-
-  // The scale of the film, right.
-  bool micro = full >= 2e-6;
-  for (int i = 0; i <= 2 && film; i++) {
-    double y = bore + full / 2 * i * px;
-    sb_draw_line(list, right - 19, y, right - 14, y, 1.2, palette->ink);
-    double shown = full / 2 * i * (micro ? 1e6 : 1e9);
-    sb_section_significant(value, shown);
-    snprintf(text, sizeof text, "%s %s", value, micro ? "\xc2\xb5m" : "nm");
-    sb_draw_text(list, right - 23, i == 0 ? y + 13 : y + 4, 11, 400, SB_RIGHT, palette->ink, text);
-  }
-  if (film) {
-    sb_draw_line(list, right - 14, bore, right - 14, bore + full * px, 1.2, palette->ink);
-  }
-
-  // What the bore does in the seal's frame.
-  double ground = rect->y + (bore - rect->y) / 2;
-  SbSectionLabel small = {11, 400, SB_LEFT, palette->ink, &palette->housing};
-  if (fabs(whole->velocity) > 0) {
-    bool out = (whole->velocity < 0) != section->valve.gasket; // the surface, to the left
-    sb_draw_arrow(list, rect->x + (out ? 58 : 14), ground, rect->x + (out ? 14 : 58), ground, 1.4,
-                  8, 7, palette->ink);
-    sb_section_label(section, rect->x + 68, ground + 4, &small,
-                     section->valve.gasket ? _("stem, relative to the seal")
-                                           : _("bore, relative to the seal"));
-  } else {
-    sb_section_label(section, rect->x + 14, ground + 4, &small,
-                     section->valve.gasket ? _("stem, at rest") : _("bore, at rest"));
-  }
-
-  // The figures: inside the ring's body, or in the film where that is thicker.
-  double left_edge = contact ? MAX(inset_x(inset, frame->contact_left), rect->x) : rect->x;
-  double x = contact ? (left_edge + split) / 2 : rect->x + rect->width / 2;
-  bool in_body = low - body_top > 66 || low - body_top > body_top - bore;
-  double y = in_body ? MAX(body_top, bore) + 24 : bore + 22;
-  double floor = in_body ? low : body_top;
-  SbAlign centre = SB_MIDDLE;
-  if (!contact) {
-    sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->seal[seal],
-                 section->valve.gasket ? _("around the neck: no film")
-                                       : _("off the land: no film"));
-  } else if (!film) {
-    // In a narrow inset in the middle, and its first words only.
-    bool rest = frame->film_central <= 0, dry = rest && fabs(whole->velocity) > 0;
-    const char *why = dry    ? _("no liquid at the inlet: no film")
-                      : rest ? _("at rest: no film, the surfaces touch")
-                             : _("no film profile in this run");
-    if (sb_text_width(section->text, why, 12, 600) > rect->width - 16) {
-      why = dry ? _("no liquid: no film") : rest ? _("at rest: no film") : _("no film profile");
-    }
-    double half = sb_text_width(section->text, why, 12, 600) / 2 + 8;
-    x = CLAMP(x, rect->x + half, rect->x + rect->width - half);
-    sb_draw_text(list, x, (bore + low) / 2, 12, 600, centre, palette->ink, why);
-    if (rest) {
-      snprintf(text, sizeof text, _("asperities carry the load, \xcf\x83 %s %s"),
-               sb_section_significant(value, sb_model_sigma(section->model) * 1e6), "\xc2\xb5m");
-      half = sb_text_width(section->text, text, 11, 400) / 2 + 8;
-      if (2 * half < rect->width) {
-        x = CLAMP(x, rect->x + half, rect->x + rect->width - half);
-        sb_draw_text(list, x, (bore + low) / 2 + 18, 11, 400, centre, palette->second, text);
-      }
-    }
-  } else {
-    char least[SB_SECTION_NUMBER];
-    sb_section_film(value, frame->film_central);
-    sb_section_film(least, frame->film_min);
-    snprintf(text, sizeof text, _("centre %s, least %s"), value, least);
-    bool narrow = sb_text_width(section->text, text, 12, 600) > split - left_edge - 12;
-    if (narrow) {
-      snprintf(text, sizeof text, _("centre %s"), value);
-      sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
-      y += 17;
-      snprintf(text, sizeof text, C_("film", "least %s"), least);
-    }
-    sb_draw_text(list, x, y, 12, 600, centre, palette->ink, text);
-    sb_section_two_digits(value, px / inset->scale);
-    if (narrow) {
-      sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, _("radial scale"));
-      y += 17;
-      snprintf(text, sizeof text, _("\xc3\x97 %s of axial"), value);
-    } else {
-      snprintf(text, sizeof text, _("radial scale \xc3\x97 %s of axial"), value);
-    }
-    sb_draw_text(list, x, y + 18, 12, 400, centre, palette->ink, text);
-    char sigma[SB_SECTION_NUMBER];
-    snprintf(text, sizeof text, _("roughness \xcf\x83 %s %s is not drawn"),
-             sb_section_significant(sigma, sb_model_sigma(section->model) * 1e6), "\xc2\xb5m");
-    if (y + 40 < floor && !narrow) {
-      sb_draw_text(list, x, y + 35, 11, 400, centre, palette->second, text);
-    }
-    double share = asperity_share(profile, frame);
-    if (share > 0 && y + 58 < floor && !narrow) {
-      snprintf(text, sizeof text, _("asperities carry %s %% of the load"),
-               sb_section_fixed(value, 100 * share, share > 0.1 ? 0 : 1));
-      sb_draw_text(list, x, y + 52, 11, 400, centre, palette->second, text);
-    }
-  }
-  frame_inset(section, inset, seal);
-  inset_title(section, inset, seal, _(", film under the contact"), _(", film"));
+  return in->contact ? CLAMP(sb_axis_at(&in->x, end), in->rect.x, in->right) : in->right;
 }
 
-// The part of a seal that both insets show.
-static Inset inset_of(const SbSection *section, const SbRect *rect) {
-  int seal = section->view->inset_seal;
-  const SbSectionLimits *limits = &section->limits;
-  double left = limits->contact_left[seal], right = limits->contact_right[seal];
-  double range =
-      fmax(1.9 * (right - left), 0.75 * sb_model_seal(section->model, seal)->section_diameter);
-  return (Inset){*rect, (left + right) / 2, (double)rect->width / range};
+// Draws the ring's surface under the bore, on a scale that holds over the film, or without a film
+// (`film`) the ring from the line of the contact down. Returns the top of its body [px].
+static double draw_body(const Inset *in, bool film, double split) {
+  const SbColor body = sb_color_mix(in->palette->panel, in->color, in->palette->dark ? 0.24 : 0.22);
+  const double below = in->low + 40;
+  if (!film) {
+    fill(in, in->left_contact, in->y.p0, split, in->low, body);
+    return in->y.p0;
+  }
+  g_autofree SbPoint *points = g_new(SbPoint, CURVE_MAX + 2);
+  const size_t count = curve(in, in->profile->film, below, points);
+  if (count < 2) {
+    return in->low;
+  }
+  // A solved film ends where it ruptures; beyond, the gap opens by micrometres: a vertical here.
+  const SbPoint last = points[count - 1];
+  const bool rupture = last.y < in->low && last.x < in->right;
+  points[count] = (SbPoint){last.x, below};
+  points[count + 1] = (SbPoint){points[0].x, below};
+  sb_draw_fill(in->list, points, count + 2, body)->feather = false;
+  sb_draw_stroke(in->list, points, rupture ? count + 1 : count, 2.4, in->color);
+  if (rupture) {
+    sb_draw_disc(in->list, last.x, last.y, 4.6, in->palette->panel);
+    sb_draw_disc(in->list, last.x, last.y, 3.2, in->color);
+  }
+  return sb_axis_at(&in->y, in->frame->film_central);
+}
+
+// The scale of the film, on the right.
+static void draw_film_scale(const Inset *in) {
+  const bool micro = in->y.hi >= 2e-6;
+  const double unit = micro ? 1e-6 : 1e-9, x = in->right - 14;
+  const SbColor ink = in->palette->ink;
+  SbTicks ticks;
+  sb_axis_ticks(&ticks, 0, in->y.hi / unit, 2);
+  for (int i = 0; i < ticks.count; i++) {
+    char value[SB_FORMAT_MAX], text[SB_FORMAT_MAX + 8];
+    const double y = sb_axis_at(&in->y, ticks.value[i] * unit);
+    sb_axis_text(value, &ticks, ticks.value[i]);
+    snprintf(text, sizeof text, "%s %s", value, micro ? "\xc2\xb5m" : "nm");
+    sb_draw_line(in->list, x - 5, y, x, y, 1.2, ink);
+    sb_draw_text(in->list, x - 9, i == 0 ? y + 13 : y + 4, 11, 400, SB_RIGHT, ink, text);
+  }
+  sb_draw_line(in->list, x, in->y.p0, x, in->y.p1, 1.2, ink);
+}
+
+// The motion of the bore in the seal's frame.
+static void draw_motion(const Inset *in) {
+  const double velocity = in->section->instant->frame->velocity, left = in->rect.x;
+  const double y = (in->rect.y + in->y.p0) / 2;
+  const SbSectionLabel small = {11, 400, SB_LEFT, in->palette->ink, &in->palette->housing};
+  if (fabs(velocity) > 0) {
+    const bool out = (velocity < 0) != in->gasket; // the surface, to the left
+    sb_draw_arrow(in->list, left + (out ? 58 : 14), y, left + (out ? 14 : 58), y, 1.4, 8, 7,
+                  in->palette->ink);
+    sb_section_label(in->section, left + 68, y + 4, &small,
+                     in->gasket ? _("stem, relative to the seal")
+                                : _("bore, relative to the seal"));
+  } else {
+    sb_section_label(in->section, left + 14, y + 4, &small,
+                     in->gasket ? _("stem, at rest") : _("bore, at rest"));
+  }
+}
+
+// A line of text about x, moved to be inside of the inset.
+static void film_text(const Inset *in, double x, double y, double size, int weight, SbColor color,
+                      const char *text) {
+  const double half = sb_text_width(in->section->text, text, size, weight) / 2 + 8;
+  x = CLAMP(x, in->rect.x + half, in->right - half);
+  sb_draw_text(in->list, x, y, size, weight, SB_MIDDLE, color, text);
+}
+
+// The reason why a contact has no film.
+static void draw_no_film(const Inset *in, double x, double y) {
+  const bool rest = in->frame->film_central <= 0;
+  const bool dry = rest && fabs(in->section->instant->frame->velocity) > 0;
+  const char *why = dry    ? _("no liquid at the inlet: no film")
+                    : rest ? _("at rest: no film, the surfaces touch")
+                           : _("no film profile in this run");
+  char text[192], value[SB_SECTION_NUMBER];
+  if (sb_text_width(in->section->text, why, 12, 600) > in->rect.width - 16) {
+    why = dry ? _("no liquid: no film") : rest ? _("at rest: no film") : _("no film profile");
+  }
+  film_text(in, x, y, 12, 600, in->palette->ink, why);
+  snprintf(text, sizeof text, _("asperities carry the load, \xcf\x83 %s %s"),
+           sb_section_significant(value, sb_model_sigma(in->section->model) * 1e6), "\xc2\xb5m");
+  if (rest && sb_text_width(in->section->text, text, 11, 400) + 16 < in->rect.width) {
+    film_text(in, x, y + 18, 11, 400, in->palette->second, text);
+  }
+}
+
+// The figures in `width` px about x, from y to `bottom`; roughness and asperities where there is
+// room.
+static void draw_figures(const Inset *in, double x, double y, double bottom, double width) {
+  const SbColor ink = in->palette->ink, second = in->palette->second;
+  char text[192], value[SB_SECTION_NUMBER], least[SB_SECTION_NUMBER], ratio[SB_SECTION_NUMBER];
+  sb_section_film(value, in->frame->film_central);
+  sb_section_film(least, in->frame->film_min);
+  const double across = in->rect.width / (in->x.hi - in->x.lo);
+  sb_section_two_digits(ratio, (in->y.p1 - in->y.p0) / (in->y.hi * across));
+  snprintf(text, sizeof text, _("centre %s, least %s"), value, least);
+  if (sb_text_width(in->section->text, text, 12, 600) > width - 12) {
+    snprintf(text, sizeof text, _("centre %s"), value);
+    film_text(in, x, y, 12, 600, ink, text);
+    snprintf(text, sizeof text, C_("film", "least %s"), least);
+    film_text(in, x, y + 17, 12, 600, ink, text);
+    film_text(in, x, y + 35, 12, 400, ink, _("radial scale"));
+    snprintf(text, sizeof text, _("\xc3\x97 %s of axial"), ratio);
+    film_text(in, x, y + 52, 12, 400, ink, text);
+    return;
+  }
+  film_text(in, x, y, 12, 600, ink, text);
+  snprintf(text, sizeof text, _("radial scale \xc3\x97 %s of axial"), ratio);
+  film_text(in, x, y + 18, 12, 400, ink, text);
+  if (y + 40 < bottom) {
+    snprintf(text, sizeof text, _("roughness \xcf\x83 %s %s is not drawn"),
+             sb_section_significant(value, sb_model_sigma(in->section->model) * 1e6), "\xc2\xb5m");
+    film_text(in, x, y + 35, 11, 400, second, text);
+  }
+  const double share = asperity_share(in->profile, in->frame);
+  if (share > 0 && y + 58 < bottom) {
+    snprintf(text, sizeof text, _("asperities carry %s %% of the load"),
+             sb_section_fixed(value, 100 * share, share > 0.1 ? 0 : 1));
+    film_text(in, x, y + 52, 11, 400, second, text);
+  }
+}
+
+// The texts: inside the ring's body, or in the film where that is thicker.
+static void draw_film_texts(const Inset *in, bool film, double split, double top) {
+  const double bore = in->y.p0, low = in->low;
+  const double left = in->contact ? fmax(in->left_contact, in->rect.x) : in->rect.x;
+  const double x = (left + split) / 2;
+  if (!in->contact) {
+    film_text(in, x, (bore + low) / 2, 12, 600, in->color,
+              in->gasket ? _("around the neck: no film") : _("off the land: no film"));
+  } else if (!film) {
+    draw_no_film(in, x, (bore + low) / 2);
+  } else if (low - top > 66 || low - top > top - bore) {
+    draw_figures(in, x, fmax(top, bore) + 24, low, split - left);
+  } else {
+    draw_figures(in, x, bore + 22, top, split - left);
+  }
+}
+
+static void draw_film(SbSection *section, const SbRect *rect) {
+  const SbPalette *palette = section->palette;
+  const double bore = rect->y + fmin(32, 0.2 * rect->height);
+  // The thickest film fills half of the scale, so that the texts fit below it.
+  double least = 0, full = fmax(2 * section->limits.film_max, 1e-12);
+  sb_axis_round_out(&least, &full, 2);
+  const Inset inset =
+      make_inset(section, rect, bore, full, bore + 0.82 * (rect->y + rect->height - bore));
+  const bool film = inset.contact && inset.profile != NULL && inset.profile->count > 1 &&
+                    inset.frame->film_central > 0;
+  const double split = film_end(&inset);
+  sb_draw_clip(section->list, rect);
+  draw_fluids(&inset, bore, split);
+  SbDrawItem *ground =
+      sb_draw_rect(section->list, rect->x, rect->y, rect->width, bore - rect->y, palette->housing);
+  ground->feather = false;
+  ground->hatch = sb_draw_hatch(palette->housing_hatch, SB_HATCH_PITCH, SB_HATCH_WIDTH, 1, 0);
+  const double top = inset.contact ? draw_body(&inset, film, split) : inset.low;
+  sb_draw_line(section->list, rect->x, bore, inset.right, bore, 1.8, palette->outline);
+  if (film) {
+    draw_film_scale(&inset);
+  }
+  draw_motion(&inset);
+  draw_film_texts(&inset, film, split, top);
+  draw_frame(&inset, _(", film under the contact"), _(", film"));
 }
 
 // From both insets to a box round the contact in the strip.
 void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const SbRect *film) {
-  int seal = section->view->inset_seal;
-  Inset inset = inset_of(section, pressure);
-  SbColor color = section->palette->seal[seal];
-  double origin = sb_section_origin(section, seal);
-  double half = (double)pressure->width / 2 / inset.scale;
-  SbPoint middle = sb_section_at(section, origin + inset.centre, section->valve.bore);
-  double width = 2 * half * section->scale;
-  double height = 0.26 * (double)pressure->height / inset.scale * section->scale;
-  double above = MIN(8, 0.5 * height);
-  double strip_right = (double)(section->strip.x + section->strip.width);
-  double box_left =
-      CLAMP((double)middle.x - width / 2, (double)section->strip.x, strip_right - width);
-  double box_top = (double)middle.y - above;
-  sb_draw_round_frame(section->list, box_left, box_top, width, height + above, 3, 1.4, color);
-  bool stacked = film->y > pressure->y;
-  double bottom = (double)(film->y + film->height);
-  double elbow = (bottom + (double)section->strip.y) / 2 + 1;
-  double from = (double)(pressure->x + pressure->width / 2);
-  double to = (double)(film->x + film->width / 2);
-  double drop = box_left + 7;
+  const SbColor color = section->palette->seal[section->view->inset_seal];
+  double centre, range;
+  range_of(section, &centre, &range);
+  const double origin = sb_section_origin(section, section->view->inset_seal);
+  const SbPoint middle = sb_section_at(section, origin + centre, section->valve.bore);
+  const double width = range * section->scale;
+  const double height = 0.26 * pressure->height / pressure->width * width;
+  const double above = fmin(8, 0.5 * height), strip_right = section->strip.x + section->strip.width;
+  const double left = CLAMP(middle.x - width / 2, section->strip.x, strip_right - width);
+  const double top = middle.y - above, bottom = film->y + film->height, drop = left + 7;
+  const double elbow = (bottom + section->strip.y) / 2 + 1;
+  const double from = pressure->x + pressure->width / 2, to = film->x + film->width / 2;
+  const bool stacked = film->y > pressure->y;
+  const double nearest = stacked || drop > to ? to : from; // of the bracket
   const SbPoint bracket[4] = {{from, bottom}, {from, elbow}, {to, elbow}, {to, bottom}};
-  if (stacked) {
-    from = to;
-    sb_draw_stroke(section->list, bracket + 2, 2, 1.2, color);
-  } else {
-    sb_draw_stroke(section->list, bracket, 4, 1.2, color);
+  sb_draw_round_frame(section->list, left, top, width, height + above, 3, 1.4, color);
+  sb_draw_stroke(section->list, bracket + (stacked ? 2 : 0), stacked ? 2 : 4, 1.2, color);
+  if (stacked || drop < from || drop > to) {
+    sb_draw_line(section->list, nearest, elbow, drop, elbow, 1.2, color);
   }
-  if (drop < from || drop > to) {
-    sb_draw_line(section->list, drop < from ? from : to, elbow, drop, elbow, 1.2, color);
-  }
-  sb_draw_line(section->list, drop, elbow, drop, box_top, 1.2, color);
-  sb_section_reserve(section, drop - 2, elbow, 4, box_top - elbow);
+  sb_draw_line(section->list, drop, elbow, drop, top, 1.2, color);
+  sb_section_reserve(section, drop - 2, elbow, 4, top - elbow);
 }
 
 void sb_section_draw_insets(SbSection *section, const SbRect *pressure, const SbRect *film) {
-  int seal = section->view->inset_seal;
-  Inset inset = inset_of(section, pressure);
-  draw_pressure(section, &inset, seal);
-  inset = inset_of(section, film);
-  draw_film(section, &inset, seal);
+  draw_pressure(section, pressure);
+  draw_film(section, film);
 }
