@@ -454,8 +454,9 @@ static bool step_rough(Progress *p, SbEhlSolution *s) {
   // A start that does not converge is detected early: a good one is below 1 after five steps. Only
   // a meniscus needs time to find its node, but it never returns from far away. At rest a good
   // start moves by at most 0.65 after four steps (250 solves), with adhering tips by more than 10.
-  // Where no flow can pass, steps grow without limit, to 1e7 and beyond.
-  const bool rest = !(c->layers.lambda > 0);
+  // Where no flow can pass, steps grow without limit, to 1e7 and beyond. A sealed contact is one at
+  // rest, whatever the speed of its film.
+  const bool rest = c->rough.sealed || !(c->layers.lambda > 0);
   const bool hopeless = rest                  ? p->iteration > 5 && largest > 1e4
                         : isfinite(c->supply) ? p->iteration > 2 && largest > 1e3
                                               : (p->iteration > 7 && largest > 3) ||
