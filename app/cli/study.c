@@ -1,7 +1,10 @@
 // Runs, cases and drawn studies on the command line: computed with progress and interrupts.
 #include "app/cli/cli.h"
 
+#include "app/base/unit.h"
 #include "app/study/view.h"
+
+#include <math.h>
 
 static void on_run(void *data, double fraction, size_t frames) {
   sb_progress_update(data, fraction);
@@ -49,8 +52,14 @@ int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model) {
   SbStatus status = sb_study_make(out, kind, model, &hooks, &report);
   sb_progress_end(&progress);
   if (status == SB_OK && !out->complete) {
-    sb_cli_fail("study %s: a solver did not converge at every point; such points are omitted",
-                sb_study_name(kind));
+    char at[SB_TEXT] = "";
+    if (isfinite(out->gap_at)) {
+      g_snprintf(at, sizeof at, " at %s %.4g %s", out->x.quantity,
+                 sb_quantity_to_shown(out->gap_at, out->x.si, out->x.unit), out->x.unit);
+    }
+    sb_cli_fail("study %s: a solver did not converge at every point; such points are omitted; the "
+                "first%s: %s",
+                sb_study_name(kind), at, out->gap);
     return SB_EXIT_NOT_CONVERGED;
   }
   return sb_cli_status(status, &report);

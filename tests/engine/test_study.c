@@ -495,6 +495,21 @@ static void test_rings(void) {
   g_free(study);
 }
 
+// A study with a solver that failed names the first place and the reason, which names the seal.
+static void test_gap(void) {
+  SbParams params;
+  SbModel model;
+  sb_params_init(&params);
+  g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_WORK_LIMIT, 1, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
+  SbStudy *study = make(SB_STUDY_TOLERANCE, &model);
+  g_test_message("at %g: %s", study->gap_at, study->gap);
+  g_assert_false(study->complete);
+  g_assert_nonnull(strstr(study->gap, "seal"));
+  g_free(study);
+}
+
 // Places solved side by side are those solved one after the other, to the bit, and a cancel ends
 // them.
 static void test_side_by_side(void) {
@@ -557,6 +572,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/cancelled", test_cancelled);
   g_test_add_func("/study/range", test_range);
   g_test_add_func("/study/side-by-side", test_side_by_side);
+  g_test_add_func("/study/gap", test_gap);
   if (g_test_slow()) {
     g_test_add_func("/study/squeeze", test_squeeze);
     g_test_add_func("/study/leak-fine", test_leak_fine);

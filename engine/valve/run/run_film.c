@@ -219,11 +219,12 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
       SbFrame *at = &run->frames[history.frame];
-      (void)sb_fail(&whole, status,
-                    "film in time, %s seal, stage %s, stem at %.4g mm, %.4g s: %s; available: the "
-                    "films before, the motion",
-                    sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement,
-                    at->time, own.text);
+      (void)sb_fail(
+          &whole, status,
+          "film (in time), %s seal, stage %s, stem at %.4g mm, %.4g s: %s; available: the "
+          "films before, the motion",
+          sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
+          own.text);
       sb_warn(&summary->warnings, "film-history", sb_input(SB_P_MODELS_FILM_TIME), "%s",
               whole.text);
       for (; at < run->frames + count; at++) {

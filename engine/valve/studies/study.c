@@ -291,6 +291,14 @@ void sb_study_mark(SbStudyWork *work, double x, const char *format, ...) {
   va_end(arguments);
 }
 
+void sb_study_gap(SbStudy *out, double x, const char *why) {
+  if (out->complete) {
+    out->gap_at = x;
+    sb_message(out->gap, sizeof out->gap, "%s", why);
+  }
+  out->complete = false;
+}
+
 void sb_study_note(SbStudy *out, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -332,7 +340,7 @@ static Seen look(SbStatus status, const SbReport *report, const SbEvaluator *eva
   return out;
 }
 
-static void account(SbStudyWork *work, const Seen *seen) {
+static void account(SbStudyWork *work, const Seen *seen, double x) {
   SbStudy *out = work->out;
   const size_t fits = seen->discs + seen->rings;
   work->spent += (double)seen->rings * SB_COST_RING + (double)seen->discs * SB_COST_DISC +
@@ -354,7 +362,9 @@ static void account(SbStudyWork *work, const Seen *seen) {
   sb_text(code, sizeof code, "study-gap-%s", what);
   sb_warn(&out->warnings, code, sb_input_resolve(seen->report.input),
           "%s has no value at some points: %s", what, seen->report.text);
-  out->complete = out->complete && seen->status != SB_ERROR_NOT_CONVERGED;
+  if (seen->status == SB_ERROR_NOT_CONVERGED) {
+    sb_study_gap(out, x, seen->report.text);
+  }
 }
 
 // ---- the grid ----
@@ -416,7 +426,7 @@ static void answer_rows(SbStudyWork *work, const double *value, const int *line,
     if (work->design->is_no_case != NULL && work->design->is_no_case(work, line[i], x[i])) {
       continue;
     }
-    account(work, &asking.seen[i]);
+    account(work, &asking.seen[i], x[i]);
     memcpy(out, figures + i * grid->figures, grid->figures * sizeof *out);
     if (work->design->derive != NULL) {
       work->design->derive(out, work, line[i], x[i]);
@@ -500,7 +510,7 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
     return;
   }
   const Seen seen = look(status, &report, work->evaluator);
-  account(work, &seen);
+  account(work, &seen, NAN);
   step(work, fmin(work->spent / work->total, 1));
 }
 

@@ -98,6 +98,9 @@ typedef struct {
   SbWarnings warnings;
   size_t solves; // number of solved fits and films
   bool complete; // false: gaps because a solver did not converge
+  // Where the first of those solvers failed, and why; empty if all converged.
+  double gap_at; // abscissa; NaN: at none in particular
+  char gap[SB_TEXT];
 } SbStudy;
 
 // Adds a panel with the ordinate `y`, the text `empty`, no limits and no curves, and returns it,

@@ -94,6 +94,10 @@ SB_STUDY_LIST(SB_STUDY_DECLARE)
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
+// Notes that a solver failed at abscissa x (NaN: at none in particular), and why, a sentence: the
+// study is not complete.
+void sb_study_gap(SbStudy *out, double x, const char *why);
+
 // Returns the net load per length of the outer seal of work->base without friction, under its
 // pressures [N/m]; NaN if it was not computed.
 double sb_study_net_load(SbStudyWork *work);

@@ -74,7 +74,7 @@ static void account(SbStudyWork *work) {
   for (size_t i = 0; i < summary->warnings.count; i++) {
     const SbWarning *warning = &summary->warnings.item[i];
     if (strcmp(warning->code, "film-speed") == 0) {
-      out->complete = false;
+      sb_study_gap(out, NAN, warning->text);
       sb_warn(&out->warnings, warning->code, warning->input, "%s", warning->text);
     }
   }
