@@ -35,6 +35,8 @@ void sb_gasket_take(SbModel *model) {
   model->floor_friction = 0;
   model->wall_friction = model->gasket_friction;
   model->start_at_wall = false;
+  model->vent_on_return = false;
+  model->refill_travel = 0;
 }
 
 void sb_gasket_derive(SbSealModel *seal, const SbModel *model) {

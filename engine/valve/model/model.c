@@ -247,11 +247,13 @@ static void compile_dose(SbModel *model, SbProblems *problems) {
                                        fmin(model->ambient_pressure, model->supply.pressure));
     model->supply.gas = model->ethanol > 0 || isnan(gas) ? 0 : gas;
   }
-  const double gap = gasket ? sb_gasket_neck(model)
-                            : M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
-                                  (model->bore_diameter + model->stem_diameter);
-  model->filling_time = sb_chamber_filling(model->supply.volume, model->discharge_coefficient * gap,
-                                           model->canister_pressure, model->density);
+  model->outlet_diameter = gasket ? model->port_diameter : shape->vent_diameter;
+  model->passage_area = gasket ? sb_gasket_neck(model)
+                               : M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
+                                     (model->bore_diameter + model->stem_diameter);
+  model->filling_time =
+      sb_chamber_filling(model->supply.volume, model->discharge_coefficient * model->passage_area,
+                         model->canister_pressure, model->density);
   if (model->pressure_map == SB_MAP_PORTS && !(model->supply.volume > 0)) {
     sb_model_refuse(
         problems, "stem.seal_spacing", NAN, NAN,

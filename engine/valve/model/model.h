@@ -63,6 +63,8 @@ struct SbModel {
   SbRubber rubber;                 // law of the rubber's change in storage
   double bore_circumference;       // pi D, length of the friction area [m]
   SbDoseSupply supply;             // of the dose chamber between the two seals
+  double passage_area;             // between canister and chamber, where the chamber is open [m2]
+  double outlet_diameter;          // of the hole that empties the chamber; 0: none [m]
   double filling_time;             // to fill the chamber past the land's edge [s]; NaN: no pressure
   double pressure_force;           // p pi D_p^2/4, > 0 pushes the stem out [N]
   SbValveParts parts;              // the stem has the mass stem_mass

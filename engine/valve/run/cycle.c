@@ -3,7 +3,7 @@
 
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
-#include "engine/valve/model/gasket.h"
+#include "engine/valve/run/valve_type.h"
 #include "engine/valve/states/breakaway.h"
 
 #include <float.h>
@@ -11,10 +11,6 @@
 
 // ---------------------------------------------------------------------------------------------------
 // Resistance
-
-static bool is_gasket(const SbCycle *cycle) {
-  return cycle->model->kind == SB_VALVE_GASKET;
-}
 
 // Returns whether the inner seal has contact at all. While the chamber is open its state is not
 // solved, so the closed states decide.
@@ -26,15 +22,11 @@ static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction
 }
 
 double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction) {
-  // Friction displaces the contact of a solved ring on the return.
   const SbSealState *first = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
-  bool both = first->touches && inner->touches;
-  if (is_gasket(cycle)) {
-    // The stem's shoulder comes from the right, and goes to the left.
-    return cycle->model->land_edge + (both ? first->contact_right - inner->contact_right : 0);
-  }
-  return cycle->model->land_edge + (both ? inner->contact_left - first->contact_left : 0);
+  const bool both = first->touches && inner->touches;
+  return cycle->model->land_edge +
+         (both ? sb_valve_type(cycle->model)->edge_shift(first, inner) : 0);
 }
 
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
@@ -55,7 +47,7 @@ static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int dire
   }
   double width = state->contact_right - state->contact_left;
   double t = (s - sb_cycle_edge_begin(cycle, chamber, direction)) / width;
-  t = is_gasket(cycle) ? 1 - t : t;
+  t = sb_valve_type(cycle->model)->open_beyond ? t : 1 - t;
   return t > 1 - 1e-12 ? 1 : fmax(t, 0); // what rounding of s leaves at the end is no contact
 }
 
@@ -155,7 +147,7 @@ static double rate_at(double s, const void *context) {
     return spring;
   }
   double c = 1 - 2 * t;
-  double falls = is_gasket(p->cycle) ? -1 : 1;
+  const double falls = sb_valve_type(p->cycle->model)->open_beyond ? 1 : -1;
   double slope = -falls *
                  ((inner->boundary_area + inner->friction_viscous) +
                   inner->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
@@ -247,11 +239,11 @@ typedef struct {
   bool full;
 } Planner;
 
-// Returns the nearest of several positions in front of the stem, or the stop.
-static double nearest_ahead(const Planner *p, const double *marks, int count) {
+// Returns the nearest of four positions in front of the stem (NaN: none), or the stop.
+static double nearest_ahead(const Planner *p, const double marks[4]) {
   const double sign = sign_of(p->direction);
   double best = p->direction == SB_CYCLE_IN ? p->cycle->model->stroke : 0;
-  for (int i = 0; i < count; i++) {
+  for (int i = 0; i < 4; i++) {
     bool nearer = sign * marks[i] > sign * p->s && sign * marks[i] < sign * best;
     best = nearer ? marks[i] : best;
   }
@@ -259,41 +251,15 @@ static double nearest_ahead(const Planner *p, const double *marks, int count) {
 }
 
 // Returns the end of the smooth piece from s in `direction`: the nearest of the edge's start,
-// middle and end, or the stop. On the in-stroke the chamber opens at the edge's end; on the return
-// it closes there. That of a gasket valve closes and opens at the start, and empties at the port.
+// middle and end, the port, or the stop.
 static double piece_end(const Planner *p) {
-  const bool in = p->direction == SB_CYCLE_IN, open = p->chamber == SB_CHAMBER_OPEN;
-  SbChamber chamber = p->chamber;
-  if (is_gasket(p->cycle)) {
-    chamber = open ? SB_CHAMBER_AT_REST : chamber;
-  } else {
-    chamber = open && !in ? SB_CHAMBER_CLOSED : chamber;
-  }
+  const SbValveType *type = sb_valve_type(p->cycle->model);
+  const SbChamber chamber =
+      p->chamber == SB_CHAMBER_OPEN ? type->closes_as(p->direction) : p->chamber;
   double start = sb_cycle_edge_begin(p->cycle, chamber, p->direction);
   double end = sb_cycle_edge_end(p->cycle, chamber, p->direction);
-  const double port = in ? sb_gasket_port_opens(p->cycle->model) : p->s;
-  const double marks[] = {start, (start + end) / 2, end, port};
-  return nearest_ahead(p, marks, is_gasket(p->cycle) ? 4 : 3);
-}
-
-// Does the same as reach() for a gasket valve.
-static int reach_gasket(SbChamber *chamber, const Planner *p, double s) {
-  const SbCycle *cycle = p->cycle;
-  const bool in = p->direction == SB_CYCLE_IN, open = p->chamber == SB_CHAMBER_OPEN;
-  const SbChamber closes = open ? SB_CHAMBER_AT_REST : p->chamber;
-  const double edge = sb_cycle_edge_begin(cycle, closes, p->direction);
-  int event = in && s == cycle->model->stroke && p->stage < SB_STAGE_D ? SB_STAGE_D : -1;
-  if (in && open && s >= edge) {
-    *chamber = SB_CHAMBER_AT_REST;
-    event = s == edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
-  } else if (!in && !open && s <= edge) {
-    *chamber = SB_CHAMBER_OPEN;
-    event = s == edge ? SB_STAGE_F : event;
-  }
-  if (in && *chamber == SB_CHAMBER_AT_REST && s >= sb_gasket_port_opens(cycle->model)) {
-    *chamber = SB_CHAMBER_CLOSED; // vented
-  }
-  return event;
+  const double port = p->direction == SB_CYCLE_IN ? type->port(p->cycle->model) : p->s;
+  return nearest_ahead(p, (const double[]){start, (start + end) / 2, end, port});
 }
 
 // The stage that a stem which moves to s reaches there, or -1, and the chamber from there on.
@@ -302,21 +268,10 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
   const bool in = p->direction == SB_CYCLE_IN;
   int event = in && s == cycle->model->stroke && p->stage < SB_STAGE_D ? SB_STAGE_D : -1;
   *chamber = p->chamber;
-  if (!inner_touches(cycle, p->chamber, p->direction)) {
-    return event;
-  }
-  if (is_gasket(cycle)) {
-    return reach_gasket(chamber, p, s);
-  }
-  if (in && p->chamber != SB_CHAMBER_OPEN) {
-    bool open = s >= sb_cycle_edge_end(cycle, p->chamber, p->direction);
-    *chamber = open ? SB_CHAMBER_OPEN : p->chamber;
-  } else if (!in && p->chamber == SB_CHAMBER_OPEN) {
-    const double end = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
-    *chamber = s <= end ? SB_CHAMBER_CLOSED : SB_CHAMBER_OPEN;
-    event = s == end ? SB_STAGE_F : -1;
-  }
-  return in && s == cycle->model->land_edge && p->stage == SB_STAGE_B ? SB_STAGE_C : event;
+  const SbPassage from = {p->chamber, p->stage, p->direction};
+  return inner_touches(cycle, p->chamber, p->direction)
+             ? sb_valve_type(cycle->model)->reach(chamber, cycle, &from, s, event)
+             : event;
 }
 
 // Computes the platen position at which a sticking stem slips in `direction`, after a dwell of
@@ -450,17 +405,22 @@ static void slide(Planner *p) {
 }
 
 // Places of the return path at which a margin can have its minimum: friction changes
-// monotonically between the ends of the path and of the land's edge under the contact, for a gasket
-// valve's return spring and friction together it is sampled.
+// monotonically between the ends of the path and of the land's edge under the contact, for a
+// return spring and friction together it is sampled.
 enum { EDGE_PLACES = 64 };
 
-// The chamber at s on the return, with one state of the closed chamber. That of a piston valve is
-// open above the land's edge, that of a gasket valve below it.
+// Returns whether the edge leaves the chamber open at s, for a stem that moves in `direction` with
+// one state of the closed chamber.
+static bool is_open(const SbCycle *cycle, SbChamber closed, int direction, double s) {
+  const bool beyond = sb_valve_type(cycle->model)->open_beyond;
+  const double edge = beyond ? sb_cycle_edge_end(cycle, closed, direction)
+                             : sb_cycle_edge_begin(cycle, closed, direction);
+  return !inner_touches(cycle, closed, direction) || (s >= edge) == beyond;
+}
+
+// The chamber at s on the return, with one state of the closed chamber.
 static SbChamber chamber_at(const SbCycle *cycle, SbChamber closed, double s) {
-  const bool touches = inner_touches(cycle, closed, SB_CYCLE_OUT);
-  const bool above = is_gasket(cycle) ? s >= sb_cycle_edge_begin(cycle, closed, SB_CYCLE_OUT)
-                                      : s < sb_cycle_edge_end(cycle, closed, SB_CYCLE_OUT);
-  return touches && above ? closed : SB_CHAMBER_OPEN;
+  return is_open(cycle, closed, SB_CYCLE_OUT, s) ? SB_CHAMBER_OPEN : closed;
 }
 
 // Minimum of `margin` over the return path from `top`, with one state of the closed chamber.
@@ -481,17 +441,17 @@ static double least_over(const SbCycle *cycle, SbFunction margin, SbChamber clos
   return least;
 }
 
-// The state of the closed chamber after a stroke to `top`: a gasket valve's chamber is full until
-// the port has passed the stem gasket.
+// The state of the closed chamber after a stroke to `top`: a port has not emptied it below its
+// position.
 static SbChamber closed_after(const SbCycle *cycle, double top) {
-  const bool full = is_gasket(cycle) && top < sb_gasket_port_opens(cycle->model);
-  return full ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
+  const double port = sb_valve_type(cycle->model)->port(cycle->model);
+  return top < port ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
 }
 
 static double least_of(const SbCycle *cycle, SbFunction margin, double top) {
   const double least = least_over(cycle, margin, closed_after(cycle, top), top);
-  // Ports leave the chamber of a piston valve between its filled and its vented state.
-  return cycle->model->pressure_map == SB_MAP_PORTS && !is_gasket(cycle)
+  // Ports leave a chamber that fills in the stroke between its filled and its vented state.
+  return cycle->model->pressure_map == SB_MAP_PORTS && !sb_valve_type(cycle->model)->fills_at_rest
              ? fmin(least, least_over(cycle, margin, SB_CHAMBER_AT_REST, top))
              : least;
 }
@@ -514,15 +474,9 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   double k = model->stiffness, dwell = 0, stopped = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
 
-  // A chamber whose inner seal has no contact is always open, that of a gasket valve at rest.
-  bool touches = inner_touches(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
-  p.chamber = touches ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
-  if (is_gasket(cycle)) {
-    const bool shut = sb_cycle_edge_begin(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0;
-    p.chamber = touches && shut ? SB_CHAMBER_AT_REST : SB_CHAMBER_OPEN;
-  } else if (touches && sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN) <= 0) {
-    p.chamber = SB_CHAMBER_OPEN;
-  }
+  // A chamber whose inner seal has no contact is always open.
+  p.chamber =
+      is_open(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN, 0) ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST;
 
   // In-stroke: stick until the static limit, slide, and again, until the stop; there the platen
   // reverses.

@@ -9,9 +9,7 @@ static double platen_top(const SbCycle *cycle) {
   const SbModel *model = cycle->model;
   double hold = sb_model_push(model, model->stroke);
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const bool gasket = model->kind == SB_VALVE_GASKET;
-    const SbChamber chamber = gasket ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;
-    hold += sb_cycle_static_friction(cycle, seal, chamber, SB_CYCLE_IN, gasket ? model->stroke : 0);
+    hold += sb_valve_type(model)->stop_friction(cycle, seal);
   }
   return model->stroke + fmax(model->reversal_force, 1.02 * hold) / model->stiffness;
 }

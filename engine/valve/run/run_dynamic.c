@@ -176,7 +176,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   case SB_MOTION_EDGE: {
     double edge = valve->edge[event->index];
     leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra),
-         edge == valve->edge_open || edge == valve->edge_closed);
+         edge == valve->edges.open || edge == valve->edges.closed);
     if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
       r->middle = event->speed;
     } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
@@ -186,7 +186,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
         r->stage == SB_STAGE_B) {
       mark(r, SB_STAGE_C, event);
-    } else if (valve->touches && edge == valve->edge_closed && event->sign < 0 &&
+    } else if (valve->touches && edge == valve->edges.closed && event->sign < 0 &&
                event->time >= turn && valve->chamber != SB_CHAMBER_AT_REST) {
       // A rebound that passes the edge on the in-stroke is not the return.
       mark(r, SB_STAGE_F, event);

@@ -79,18 +79,18 @@ static bool perturb_static(SbRun *run) {
 }
 
 // Moves the ends of the inner contact by the error of its width, with the signs that add up: the
-// position where a ring meets the land's edge on the return is a sum of widths of both directions,
-// the position where a gasket leaves the shoulder is their difference (sb_cycle_edge_begin()).
-// Returns false if no state has an error.
+// position where a contact meets the land's edge on the return is a sum of widths of both
+// directions; where it leaves the land there, their difference (sb_cycle_edge_begin()). Returns
+// false if no state has an error.
 static bool perturb_contact(SbRun *run) {
-  const bool gasket = run->model->kind == SB_VALVE_GASKET;
+  const bool meets = sb_valve_type(run->model)->open_beyond;
   SbSealState *all = &run->cycle.state[SB_INNER][0][0];
   bool any = false;
   for (int i = 0; i < SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
     SbSealState *state = &all[i];
     const double by = state->width_error * (state->contact_right - state->contact_left);
     if (by > 0) {
-      const double out = gasket && i % SB_RUN_MOTIONS == SB_CYCLE_OUT ? -by : by;
+      const double out = !meets && i % SB_RUN_MOTIONS == SB_CYCLE_OUT ? -by : by;
       state->contact_left -= out;
       state->contact_right += out;
       any = true;

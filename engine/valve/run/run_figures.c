@@ -39,7 +39,7 @@ static double film_by(SbRun *run, int seal, const SbSealState *state, SbFilmMode
 
 // Returns the input to change if a seal's contact pressure is too low.
 static int pressed_by(const SbModel *model) {
-  return sb_input(model->kind == SB_VALVE_GASKET ? SB_P_GASKET_CRIMP : SB_P_GLAND_RADIAL_SPACE);
+  return sb_input(sb_valve_type(model)->pressed_by);
 }
 
 // Whether a seal presses the bore in every state in which the cycle needs it to: no before not
@@ -195,8 +195,8 @@ static void fill_contact(SbContact *out, const SbSealState *state, double speed)
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
   const SbStageMark *opens = &summary->stage[SB_STAGE_C], *closes = &summary->stage[SB_STAGE_F];
   const bool both = opens->reached && closes->reached && isfinite(model->filling_time);
-  if (model->kind == SB_VALVE_GASKET) {
-    return NAN; // it fills at rest, without a time limit
+  if (sb_valve_type(model)->fills_at_rest) {
+    return NAN; // without a time limit
   }
   return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
 }
@@ -205,7 +205,7 @@ double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
 // if it is open at the end. Uses every `step`-th frame.
 static double vent_time(const SbRun *run, double low, double high, size_t step) {
   const SbModel *model = run->model;
-  const bool both_ways = !model->vent_on_return || model->kind == SB_VALVE_GASKET;
+  const bool both_ways = !model->vent_on_return;
   bool open = false;
   double time = 0;
   for (size_t i = 0, next; i + 1 < run->count; i = next) {
@@ -227,12 +227,12 @@ static double vent_time(const SbRun *run, double low, double high, size_t step) 
 // venting has unlimited time. Uses every `step`-th frame.
 static double kept(const SbRun *run, size_t step) {
   const SbModel *model = run->model;
-  const bool gasket = model->kind == SB_VALVE_GASKET;
+  const SbValveType *type = sb_valve_type(model);
   double low, high, time = INFINITY;
-  if (gasket || (model->pressure_map == SB_MAP_PORTS && !model->chamber_at_once)) {
-    time = sb_run_vent(&low, &high, run) ? vent_time(run, low, high, step) : 0;
+  if (type->fills_at_rest || (model->pressure_map == SB_MAP_PORTS && !model->chamber_at_once)) {
+    time = type->vent(&low, &high, &run->cycle) ? vent_time(run, low, high, step) : 0;
   }
-  const double hole = gasket ? model->port_diameter : model->shape.vent_diameter;
+  const double hole = model->outlet_diameter;
   return model->canister_pressure > 0
              ? sb_chamber_remaining(&model->supply,
                                     model->discharge_coefficient * M_PI / 4 * hole * hole,
@@ -360,7 +360,7 @@ static void give_reasons_of_outcome(SbRun *run) {
   const bool never = summary->outcome == SB_OUTCOME_NEVER_MOVED;
   const char *missing = NULL; // the first stage that a dose needs
   for (int stage = SB_STAGE_C; stage <= SB_STAGE_F && missing == NULL; stage++) {
-    const SbStage last = run->model->kind == SB_VALVE_GASKET ? SB_STAGE_D : SB_STAGE_F;
+    const SbStage last = sb_valve_type(run->model)->fills_at_rest ? SB_STAGE_D : SB_STAGE_F;
     const bool needed = stage == SB_STAGE_C || stage == (int)last;
     missing = needed && !summary->stage[stage].reached ? sb_stage_name((SbStage)stage) : NULL;
   }
@@ -443,7 +443,7 @@ static void give_reasons_of_run(SbRun *run, bool well) {
       {!(model->canister_pressure > 0), "dose.fill*", "nothing drives liquid into the chamber"},
       {!(model->canister_pressure > 0), "dose.kept_mass_kg", "nothing drives liquid out"},
       {!(model->supply.vapour > 0), "dose.kept_mass_kg", "the fluid's vapour has no figures"},
-      {model->kind == SB_VALVE_GASKET, "dose.filled_share",
+      {sb_valve_type(model)->fills_at_rest, "dose.filled_share",
        "a gasket valve's chamber fills at rest, before the stroke"},
       {well, "dose.filled_share", "the stem does not open and close the chamber: C to F"},
       {well, "dose.prime_loss_per_day", "the outer seal's leak at rest is not known"},

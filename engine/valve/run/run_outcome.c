@@ -99,7 +99,7 @@ bool sb_run_delivers(const SbRun *run) {
   const SbSummary *summary = &run->summary;
   const SbModel *model = run->model;
   const bool first = summary->stage[SB_STAGE_C].reached;
-  if (model->kind == SB_VALVE_GASKET) {
+  if (sb_valve_type(model)->fills_at_rest) {
     return first && summary->stage[SB_STAGE_D].reached; // shut at C, emptied at the stop
   }
   // The chamber is filled from C to F and emptied after F, if no ports determine the time.

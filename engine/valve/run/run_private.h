@@ -19,6 +19,7 @@
 #include "engine/valve/run/cycle.h"
 #include "engine/valve/run/run.h"
 #include "engine/valve/run/run_work.h"
+#include "engine/valve/run/valve_type.h"
 #include "engine/valve/states/speed_states.h"
 
 // Index of the motion "at rest"; capacities.
@@ -358,10 +359,6 @@ void sb_run_set_user_fractions(SbSummary *summary, const SbModel *model);
 // NaN if sb_run_delivers() is false; 0 if the canister's pressure is not above ambient.
 double sb_run_dose(const SbRun *run, double metered);
 
-// Computes the range *low to *high of stem displacements [m] in which the dose chamber is open to
-// the vent. Returns false if it never is.
-bool sb_run_vent(double *low, double *high, const SbRun *run);
-
 // Sets run->count, and publishes the first `count` frames to readers unless run->hold is true.
 void sb_run_publish(SbRun *run, size_t count);
 
@@ -403,12 +400,7 @@ typedef struct {
   bool both_alike;   // both ways have the same friction at speed 0
   SbChamber chamber; // state of the chamber at the present instant
   bool touches;      // the inner seal has contact
-  // Stem displacements [m]: the chamber opens to the canister on the in-stroke beyond edge_open,
-  // and closes on the return below edge_closed. The chamber of a gasket valve closes and opens
-  // there.
-  double edge_open;
-  double edge_closed;
-  double port;   // of a gasket valve: stem displacement beyond which the chamber empties [m]
+  SbChamberEdges edges;
   double middle; // stem displacement of the middle of B-C and of F-A [m]
   // Cache by chamber state: displacement last requested, and fractions of the inner contact on the
   // land.

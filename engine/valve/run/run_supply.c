@@ -16,17 +16,12 @@
 
 #include <math.h>
 
-// Returns whether a seal has liquid on its left or right in a state of the chamber. With ports the
-// chamber at rest represents the vented one; that of a gasket valve is vented where both its
-// gaskets close after the dose.
+// Returns whether a seal has liquid on its left or right in a state of the chamber.
 static bool is_wet(const SbModel *model, int seal, SbChamber chamber, bool left) {
   if (left ? seal == SB_INNER : seal == SB_OUTER) {
     return left; // the canister; the air
   }
-  if (model->kind == SB_VALVE_GASKET) {
-    return chamber != SB_CHAMBER_CLOSED;
-  }
-  return chamber != SB_CHAMBER_AT_REST || model->pressure_map == SB_MAP_CHAMBER_FILLED;
+  return sb_valve_type(model)->is_wet(model, chamber);
 }
 
 // Returns whether the stem's motion in a direction brings the bore on the left of the seal into its
@@ -55,8 +50,7 @@ SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion
       is_wet(model, seal, chamber, enters_left(model, motion))) {
     return (SbSupply){0};
   }
-  if (model->kind == SB_VALVE_GASKET) {
-    // The liquid that the return left on the stem has evaporated before the next in-stroke.
+  if (sb_valve_type(model)->layer_evaporates) {
     return (SbSupply){true, 0};
   }
   const bool in = motion == SB_CYCLE_IN;

@@ -16,8 +16,8 @@
 // the canister when the inner contact has left the land, to the vent while any of the hole is
 // between the two contacts (fully open or closed), and to the canister through a by-pass below
 // bore.refill_travel.
-#include "engine/valve/model/gasket.h"
 #include "engine/valve/run/run_private.h"
+#include "engine/valve/run/valve_type.h"
 #include "engine/valve/states/breakaway.h"
 
 #include <math.h>
@@ -26,12 +26,11 @@
 static const double band_tolerance = 1e-3;
 
 // Returns how close the chamber is to the state of SB_CHAMBER_CLOSED, from 0 (that of
-// SB_CHAMBER_AT_REST) to 1, by its pressure: the closed chamber has the full pressure; that of a
-// gasket valve has been emptied then.
+// SB_CHAMBER_AT_REST) to 1, by its pressure: one of both states is the full one.
 static double filling(const SbRun *run, double pressure) {
   double canister = run->model->canister_pressure;
   double full = canister != 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
-  return run->model->kind == SB_VALVE_GASKET ? 1 - full : full;
+  return sb_valve_type(run->model)->fills_at_rest ? 1 - full : full;
 }
 
 // States between which friction is interpolated: with ports those of the vented and the filled
@@ -234,32 +233,12 @@ static void valve_band(SbDynamicsBand *out, double x, size_t region, int directi
   }
 }
 
-// The shoulder closes the full chamber and opens it again, the port empties it.
-static void cross_gasket(SbValve *valve, double x, int direction) {
-  const SbChamber chamber = valve->chamber;
-  if (direction > 0 && x == valve->edge_open && chamber == SB_CHAMBER_OPEN) {
-    valve->chamber = SB_CHAMBER_AT_REST;
-  } else if (direction > 0 && x == valve->port && chamber == SB_CHAMBER_AT_REST) {
-    valve->chamber = SB_CHAMBER_CLOSED;
-  } else if (direction < 0 && ((x == valve->edge_closed && chamber == SB_CHAMBER_CLOSED) ||
-                               (x == valve->edge_open && chamber == SB_CHAMBER_AT_REST))) {
-    valve->chamber = SB_CHAMBER_OPEN;
-  }
-}
-
 static void valve_cross(size_t edge, int direction, double *extra, void *user) {
   SbValve *valve = user;
   double x = valve->edge[edge];
-  const SbModel *model = valve->run->model;
-  if (model->kind == SB_VALVE_GASKET) {
-    if (valve->touches) {
-      cross_gasket(valve, x, direction);
-    }
-  } else if (valve->touches && direction > 0 && x == valve->edge_open) {
-    valve->chamber = SB_CHAMBER_OPEN;
-  } else if (valve->touches && direction < 0 && x == valve->edge_closed &&
-             valve->chamber == SB_CHAMBER_OPEN) {
-    valve->chamber = SB_CHAMBER_CLOSED;
+  if (valve->touches) {
+    valve->chamber =
+        sb_valve_type(valve->run->model)->cross(&valve->edges, valve->chamber, direction, x);
   }
   if (valve->ports) {
     sb_chamber_cross(&valve->dose, x, direction, extra);
@@ -290,26 +269,9 @@ static void add_edge(SbDynamicsModel *out, double x) {
   out->edges++;
 }
 
-bool sb_run_vent(double *low, double *high, const SbRun *run) {
-  const SbModel *model = run->model;
-  const SbSealState *inner = &run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbSealState *outer = &run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbValveShape *shape = &model->shape;
-  const double hole = shape->vent_diameter, edge = model->land_edge;
-  if (model->kind == SB_VALVE_GASKET) {
-    *low = sb_gasket_port_opens(model);
-    *high = INFINITY;
-    return *low < model->stroke;
-  }
-  *low = edge + inner->contact_right - inner->contact_left - shape->vent_position - hole / 2;
-  *high = edge - inner->contact_left + shape->seal_spacing + outer->contact_left -
-          shape->vent_position + hole / 2;
-  return hole > 0 && *high > *low && *high > 0 && *low < model->stroke;
-}
-
 static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
   const SbModel *model = valve->run->model;
-  const SbValveShape *shape = &model->shape;
+  const SbValveType *type = sb_valve_type(model);
   bool at_once = model->chamber_at_once;
   double coefficient = model->discharge_coefficient;
   double canister = model->canister_pressure;
@@ -319,34 +281,31 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
                               .stiffness = model->chamber_stiffness,
                               .density = model->density};
 
-  // The land's edge: an annulus between stem and bore.
-  double annulus = M_PI / 4 * (model->bore_diameter - model->stem_diameter) *
-                   (model->bore_diameter + model->stem_diameter);
-  const bool gasket = model->kind == SB_VALVE_GASKET;
-  annulus = gasket ? sb_gasket_neck(model) : annulus;
+  // The land's edge: an annulus.
+  const double annulus = model->passage_area;
   double land_area = at_once || annulus <= 0 ? INFINITY : coefficient * annulus;
-  double opens = valve->touches ? valve->edge_open : -INFINITY;
-  const double closes = valve->touches ? valve->edge_open : INFINITY;
+  const bool bounded = valve->touches; // a chamber whose inner seal has no contact is always open
   chamber->port[chamber->ports++] =
-      (SbChamberPort){gasket ? -INFINITY : opens, gasket ? closes : INFINITY, SB_PORT_BOTH_WAYS,
-                      canister, land_area};
+      (SbChamberPort){bounded && type->open_beyond ? valve->edges.open : -INFINITY,
+                      bounded && !type->open_beyond ? valve->edges.open : INFINITY,
+                      SB_PORT_BOTH_WAYS, canister, land_area};
 
-  double low, high, hole = gasket ? model->port_diameter : shape->vent_diameter;
-  const bool vents = sb_run_vent(&low, &high, valve->run);
-  if (hole > 0 && !vents && !gasket) {
+  double low, high, hole = model->outlet_diameter;
+  const bool vents = type->vent(&low, &high, &valve->run->cycle);
+  if (hole > 0 && !vents && !type->fills_at_rest) {
     sb_warn(&valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
             "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
             "moves from 0 to %.3g mm",
             1e3 * low, 1e3 * high, 1e3 * model->stroke);
   }
   if (vents) {
-    chamber->port[chamber->ports++] = (SbChamberPort){
-        low, high, model->vent_on_return && !gasket ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
-        at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};
+    chamber->port[chamber->ports++] =
+        (SbChamberPort){low, high, model->vent_on_return ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
+                        at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};
   }
 
   // The by-pass at rest.
-  if (model->refill_travel > 0 && !gasket) {
+  if (model->refill_travel > 0) {
     chamber->port[chamber->ports++] =
         (SbChamberPort){-INFINITY, model->refill_travel, SB_PORT_BOTH_WAYS, canister,
                         at_once ? INFINITY : coefficient * model->refill_area};
@@ -439,7 +398,6 @@ static void set_edges(SbDynamicsModel *out, SbValve *valve, const SbRun *run, do
                       double *far) {
   const SbModel *model = run->model;
   const SbCycle *cycle = &run->cycle;
-  const bool gasket = model->kind == SB_VALVE_GASKET;
   valve->touches = cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].touches;
   *near = INFINITY;
   *far = -INFINITY;
@@ -454,20 +412,19 @@ static void set_edges(SbDynamicsModel *out, SbValve *valve, const SbRun *run, do
   *far = fmax(end_open, end_closed);
   add_edge(out, end_open);
   add_edge(out, end_closed);
-  valve->edge_open = gasket ? model->land_edge : end_open;
-  valve->edge_closed = gasket ? closed : end_closed;
-  if (valve->ports && gasket) {
-    valve->edge_open = valve->edge_closed = *near;
-  } else if (valve->ports) {
+  const bool beyond = sb_valve_type(model)->open_beyond;
+  valve->edges.open = beyond ? end_open : model->land_edge;
+  valve->edges.closed = beyond ? end_closed : closed;
+  if (valve->ports) {
     // The wider contact decides, whatever the pressure is when it leaves.
-    valve->edge_open = valve->edge_closed = *far;
+    valve->edges.open = valve->edges.closed = beyond ? *far : *near;
   }
   // Where the seals' figures are taken.
   valve->middle = model->land_edge / 2;
   add_edge(out, valve->middle);
   add_edge(out, model->land_edge);
-  add_edge(out, valve->edge_open);
-  add_edge(out, valve->edge_closed);
+  add_edge(out, valve->edges.open);
+  add_edge(out, valve->edges.closed);
 }
 
 // Warns if the jet of the vent is not turbulent, for which the orifice law is valid.
@@ -546,16 +503,13 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
 
   double near, far;
   set_edges(out, valve, run, &near, &far);
-  const bool gasket = model->kind == SB_VALVE_GASKET;
-  bool behind = out->start_position >= valve->edge_open;
-  valve->chamber = !valve->touches || behind ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST;
-  if (gasket) {
-    valve->port = sb_gasket_port_opens(model);
-    add_edge(out, valve->port);
-    valve->chamber = !valve->touches || !behind           ? SB_CHAMBER_OPEN
-                     : out->start_position >= valve->port ? SB_CHAMBER_CLOSED
-                                                          : SB_CHAMBER_AT_REST;
-  }
+  const SbValveType *type = sb_valve_type(model);
+  const bool behind = out->start_position >= valve->edges.open;
+  valve->edges.port = type->port(model);
+  add_edge(out, valve->edges.port);
+  valve->chamber = !valve->touches || behind == type->open_beyond ? SB_CHAMBER_OPEN
+                   : out->start_position >= valve->edges.port     ? SB_CHAMBER_CLOSED
+                                                                  : SB_CHAMBER_AT_REST;
   if (valve->ports) {
     status = set_ports(out, valve, report);
     if (status != SB_OK) {
@@ -603,10 +557,9 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   const bool moving = at->moving && sample->contact[seal] != SB_CONTACT_STUCK;
   const bool mixed = model->pressure_map == SB_MAP_PORTS && at->chamber != SB_CHAMBER_OPEN;
   const double filled = filling(run, at->pressure), s = sample->position;
-  // Where a quasi-static stem jumps its speed is not known. A gasket's balance is that of the
-  // drive's speed, from which the spring takes a hundredth.
+  // Where a quasi-static stem jumps its speed is not known.
   const bool balanced =
-      model->kind == SB_VALVE_GASKET && model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+      sb_valve_type(model)->drive_friction && model->motion == SB_MODEL_MOTION_QUASI_STATIC;
   const bool own = moving && sample->speed != 0 && run->plan.frame_films && !balanced;
   const double speed = own ? sample->speed : run->speed;
   SbSealState state;

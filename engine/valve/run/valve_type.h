@@ -1,0 +1,66 @@
+// How the stem of a valve opens and closes the dose chamber: one row for each kind of valve
+// (valve.kind). The code of this room reads the row and does not compare the kind.
+//
+// Pure functions of their arguments, for any thread. s is the stem's displacement [m]; a direction
+// is SB_CYCLE_IN or SB_CYCLE_OUT.
+#pragma once
+
+#include "engine/valve/run/cycle.h"
+
+// Where a stem is when it moves to another position.
+typedef struct {
+  SbChamber chamber;
+  SbStage stage;
+  int direction;
+} SbPassage;
+
+// Stem displacements at which the chamber changes its state in a motion with inertia [m].
+typedef struct {
+  double open;   // the edge, on the in-stroke
+  double closed; // the edge, on the return
+  double port;   // beyond it the port empties the chamber; NAN: there is none
+} SbChamberEdges;
+
+// One kind of valve.
+typedef struct {
+  // The chamber fills at rest and is emptied by a port on the in-stroke. Else it fills between
+  // stages C and F, and is emptied by the vent.
+  bool fills_at_rest;
+  // The chamber is open to the canister beyond the land's edge, where the inner contact has left
+  // the land. Else it is closed there, where the contact has come onto the land.
+  bool open_beyond;
+  // Liquid that a stroke leaves on the sliding surface evaporates before the next one.
+  bool layer_evaporates;
+  // In quasi-static motion the frames have the friction of the drive's speed. Else of the stem's,
+  // which a return spring makes slower.
+  bool drive_friction;
+  // The input to change if the contact pressure is too low (SB_P_...).
+  SbParamId pressed_by;
+
+  // Returns how far beyond bore.land_edge the edge reaches the inner contact `inner` [m]; `first`
+  // is the contact at rest on the in-stroke.
+  double (*edge_shift)(const SbSealState *first, const SbSealState *inner);
+  // Returns the state that decides where an open chamber closes, for a stem that moves in
+  // `direction`.
+  SbChamber (*closes_as)(int direction);
+  // Returns the displacement at which the port empties the chamber [m]; NAN: it has none.
+  double (*port)(const SbModel *model);
+  // Returns the stage that a stem which moves to s reaches there, or `event`. Writes the chamber
+  // from there on to *chamber. The inner seal has contact.
+  int (*reach)(SbChamber *chamber, const SbCycle *cycle, const SbPassage *from, double s,
+               int event);
+  // Returns the state of the chamber after the stem has crossed the edge at s (one of `edges`, or
+  // another one) in `direction`, > 0 inwards. The inner seal has contact.
+  SbChamber (*cross)(const SbChamberEdges *edges, SbChamber chamber, int direction, double s);
+  // Returns the static friction of a seal that the drive must overcome beyond the push of the stem
+  // to hold it at the end stop [N].
+  double (*stop_friction)(const SbCycle *cycle, int seal);
+  // Returns whether the chamber in state `chamber` has liquid.
+  bool (*is_wet)(const SbModel *model, SbChamber chamber);
+  // Writes the range of s [m] in which the chamber is open to the outside. Returns false if the
+  // stem never is there.
+  bool (*vent)(double *low, double *high, const SbCycle *cycle);
+} SbValveType;
+
+// Returns the row of the model's kind of valve; static.
+const SbValveType *sb_valve_type(const SbModel *model);
