@@ -216,7 +216,9 @@ static gboolean draw(GtkWidget *widget, cairo_t *cr, const Sketch *sketch) {
     sb_canvas_color(c, color, 1);
     cairo_stroke(cr);
   }
-  sb_canvas_curve(c, (SbStroke){SB_ROLE_SECOND, 1, &sb_dash_dimension}, (const SbPoint[]){{x0 + left * scale, y0 + 0.5}, {x0 + right * scale, y0 + 0.5}}, 2);
+  sb_canvas_curve(c, (SbStroke){SB_ROLE_SECOND, 1, &sb_dash_dimension},
+                  (const SbPoint[]){{x0 + left * scale, y0 + 0.5}, {x0 + right * scale, y0 + 0.5}},
+                  2);
   draw_mark(c, mark, sketch->symbol, x0, y0, scale);
   sb_canvas_finish(c);
   return GDK_EVENT_PROPAGATE;

@@ -25,7 +25,8 @@ void sb_section_view_listen(GtkWidget *view,
                             void (*chosen)(void *data, SbParamId id, const char *typed),
                             void *data);
 
-// Gives the picture the keyboard focus, so that keys of the playhead (the space bar among them) work.
+// Gives the picture the keyboard focus, so that keys of the playhead (the space bar among them)
+// work.
 void sb_section_view_focus(GtkWidget *view);
 
 // To be called when a key is pressed in the window. Returns whether a handle used it; FALSE if the
