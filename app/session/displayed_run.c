@@ -84,3 +84,18 @@ bool sb_displayed_run_complete(const SbDisplayedRun *shown) {
   sb_run_frames(shown->run, &published);
   return sb_trace_frames(shown->trace) >= published;
 }
+
+bool sb_same_values(const SbParams *a, const SbParams *b) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    if (sb_params_get(a, (SbParamId)id) != sb_params_get(b, (SbParamId)id)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+bool sb_displayed_run_is_of(const SbDisplayedRun *shown, const SbParams *params,
+                            uint64_t drawings) {
+  return sb_model_drawings(sb_run_model(shown->run)) == drawings &&
+         sb_same_values(&shown->params, params);
+}

@@ -59,3 +59,9 @@ bool sb_displayed_run_update(SbDisplayedRun *shown, size_t limit);
 
 // Returns whether the trace contains all published frames.
 bool sb_displayed_run_complete(const SbDisplayedRun *shown);
+
+// Returns whether all values of two sets are equal.
+bool sb_same_values(const SbParams *a, const SbParams *b);
+
+// Returns whether a run belongs to these values and drawings (sb_model_drawings()).
+bool sb_displayed_run_is_of(const SbDisplayedRun *shown, const SbParams *params, uint64_t drawings);

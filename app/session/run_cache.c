@@ -1,34 +1,20 @@
 // A list, the last used first. See the header.
 #include "app/session/run_cache.h"
 
-#include <string.h>
-
 enum { RUNS_MAX = 8, FRAMES_MAX = 200000 }; // some 100 MB of frames
 
-typedef struct {
-  char *hash;
-  SbDisplayedRun *run; // owned reference
-} Entry;
-
 struct SbRunCache {
-  GQueue entries; // of Entry
+  GQueue runs; // of SbDisplayedRun, owned references
 };
 
 SbRunCache *sb_run_cache_new(void) {
   SbRunCache *cache = g_new0(SbRunCache, 1);
-  g_queue_init(&cache->entries);
+  g_queue_init(&cache->runs);
   return cache;
 }
 
-static void entry_free(gpointer data) {
-  Entry *entry = data;
-  g_free(entry->hash);
-  sb_displayed_run_unref(entry->run);
-  g_free(entry);
-}
-
 void sb_run_cache_clear(SbRunCache *cache) {
-  g_queue_clear_full(&cache->entries, entry_free);
+  g_queue_clear_full(&cache->runs, (GDestroyNotify)sb_displayed_run_unref);
 }
 
 void sb_run_cache_free(SbRunCache *cache) {
@@ -38,43 +24,36 @@ void sb_run_cache_free(SbRunCache *cache) {
   }
 }
 
-static GList *find(SbRunCache *cache, const char *hash) {
-  GList *link = cache->entries.head;
-  while (link != NULL && strcmp(((Entry *)link->data)->hash, hash) != 0) {
-    link = link->next;
+SbDisplayedRun *sb_run_cache_get(SbRunCache *cache, const SbParams *params, uint64_t drawings) {
+  for (GList *link = cache->runs.head; link != NULL; link = link->next) {
+    if (sb_displayed_run_is_of(link->data, params, drawings)) {
+      g_queue_unlink(&cache->runs, link);
+      g_queue_push_head_link(&cache->runs, link);
+      return link->data;
+    }
   }
-  return link;
+  return NULL;
 }
 
-SbDisplayedRun *sb_run_cache_get(SbRunCache *cache, const char *hash) {
-  GList *link = find(cache, hash);
-  if (link == NULL) {
-    return NULL;
+void sb_run_cache_put(SbRunCache *cache, SbDisplayedRun *run) {
+  SbDisplayedRun *former =
+      sb_run_cache_get(cache, &run->params, sb_model_drawings(sb_run_model(run->run)));
+  sb_displayed_run_ref(run);
+  if (former != NULL) {
+    sb_displayed_run_unref(g_queue_pop_head(&cache->runs));
   }
-  g_queue_unlink(&cache->entries, link);
-  g_queue_push_head_link(&cache->entries, link);
-  return ((Entry *)link->data)->run;
-}
-
-void sb_run_cache_put(SbRunCache *cache, const char *hash, SbDisplayedRun *run) {
-  if (sb_run_capacity(run->run) > FRAMES_MAX) {
-    return;
-  }
-  Entry *entry = g_new(Entry, 1);
-  *entry = (Entry){g_strdup(hash), sb_displayed_run_ref(run)};
-  GList *link = find(cache, hash);
-  if (link != NULL) {
-    entry_free(link->data);
-    g_queue_delete_link(&cache->entries, link);
-  }
-  g_queue_push_head(&cache->entries, entry);
-  size_t frames = 0;
-  guint kept = 0;
-  for (link = cache->entries.head; link != NULL; link = link->next) {
-    frames += sb_run_capacity(((Entry *)link->data)->run->run);
-    kept += frames <= FRAMES_MAX && kept < RUNS_MAX;
-  }
-  while (cache->entries.length > kept) {
-    entry_free(g_queue_pop_tail(&cache->entries));
+  g_queue_push_head(&cache->runs, run);
+  size_t frames = 0, unused = 0;
+  for (GList *link = cache->runs.head, *next; link != NULL; link = next) {
+    next = link->next;
+    SbDisplayedRun *each = link->data;
+    if (each->references > 1) {
+      continue;
+    }
+    frames += sb_run_capacity(each->run);
+    if (++unused > RUNS_MAX || frames > FRAMES_MAX) {
+      sb_displayed_run_unref(each);
+      g_queue_delete_link(&cache->runs, link);
+    }
   }
 }

@@ -146,17 +146,6 @@ void sb_session_use_pin(SbSession *session, size_t index) {
   sb_session_document_changed(session);
 }
 
-SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *params) {
-  for (size_t i = 0; i < session->pins->len; i++) {
-    SbDisplayedRun *run = pin_at(session, i)->run;
-    if (run != NULL && run->chart.state == SB_CHART_DONE &&
-        sb_session_run_is_of(run, params, sb_session_drawings(session))) {
-      return run;
-    }
-  }
-  return NULL;
-}
-
 // For the charts ---------------------------------------------------------------------------------
 
 size_t sb_session_frame_of(SbSession *session, const SbDisplayedRun *run) {
@@ -220,6 +209,7 @@ static void take(SbSession *session, SbRunHandle *handle) {
       handle, sb_document_pin_params(session->document, session->pin_index), SB_GRADE_WHOLE);
   sb_displayed_run_end(pin->run);
   sb_displayed_run_update(pin->run, G_MAXSIZE);
+  sb_run_cache_put(session->cache, pin->run);
 }
 
 static void compute_next(SbSession *session) {
@@ -229,10 +219,9 @@ static void compute_next(SbSession *session) {
       continue;
     }
     const SbParams *params = sb_document_pin_params(session->document, i);
-    if (session->shown != NULL && session->shown->grade == SB_GRADE_WHOLE &&
-        session->shown->chart.state == SB_CHART_DONE &&
-        sb_session_run_is_of(session->shown, params, sb_session_drawings(session))) {
-      pin->run = sb_displayed_run_ref(session->shown);
+    SbDisplayedRun *known = sb_run_cache_get(session->cache, params, sb_session_drawings(session));
+    if (known != NULL && known->grade == SB_GRADE_WHOLE) {
+      pin->run = sb_displayed_run_ref(known);
       continue;
     }
     g_autoptr(SbModel) model = NULL;

@@ -141,16 +141,10 @@ void sb_session_chart_pins(SbSession *session);
 // Sets the frame of each pin of session->chart to the position of the playhead.
 void sb_session_place_pins(SbSession *session);
 
-// Returns the run of a pin with these values and the present drawings; NULL: none. Borrowed.
-SbDisplayedRun *sb_session_pinned_answer(SbSession *session, const SbParams *params);
-
 // ---- Runs ----
 
 // Returns sb_model_drawings() of the present model; 0: there is none.
 uint64_t sb_session_drawings(const SbSession *session);
-
-// Returns whether a run belongs to these values and drawings.
-bool sb_session_run_is_of(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings);
 
 // Initialises the members for runs.
 void sb_session_init_runs(SbSession *session);

@@ -49,35 +49,21 @@ static void cancel_source(guint *source) {
   }
 }
 
-// Returns whether all values of two sets are equal.
-static bool same_values(const SbParams *a, const SbParams *b) {
-  for (int id = 0; id < SB_PARAM_COUNT; id++) {
-    if (sb_params_get(a, (SbParamId)id) != sb_params_get(b, (SbParamId)id)) {
-      return false;
-    }
-  }
-  return true;
-}
-
 uint64_t sb_session_drawings(const SbSession *session) {
   return session->model != NULL ? sb_model_drawings(session->model) : 0;
-}
-
-bool sb_session_run_is_of(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings) {
-  return sb_model_drawings(sb_run_model(run->run)) == drawings && same_values(&run->params, params);
 }
 
 // Whether a run is complete and of these values and drawings.
 static bool answers(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings) {
   return run != NULL && run->chart.state == SB_CHART_DONE &&
-         sb_session_run_is_of(run, params, drawings);
+         sb_displayed_run_is_of(run, params, drawings);
 }
 
 // Whether what is asked is what the document says.
 static bool is_current(const SbSession *session) {
   const SbParams present = sb_document_params(session->document);
   return session->model != NULL && session->asked_drawings == sb_session_drawings(session) &&
-         same_values(&session->asked, &present);
+         sb_same_values(&session->asked, &present);
 }
 
 static void ask(SbSession *session) {
@@ -183,8 +169,7 @@ static void go_on(SbSession *session) {
 // A complete run for others: by its values, as the base of rings and of slopes.
 static void keep(SbSession *session, SbDisplayedRun *run) {
   if (run->grade > SB_GRADE_COARSE) {
-    g_autofree char *hash = sb_document_sha256(session->document);
-    sb_run_cache_put(session->cache, hash, run);
+    sb_run_cache_put(session->cache, run);
   }
   sb_session_set_base(session, run);
 }
@@ -436,7 +421,8 @@ static void adopt(SbSession *session, SbDisplayedRun *run) {
 }
 
 // A run of the present values that was kept in a file, for the caller; NULL if there is none.
-static SbDisplayedRun *stored_run(SbSession *session, const SbParams *params, const char *hash) {
+static SbDisplayedRun *stored_run(SbSession *session, const SbParams *params) {
+  g_autofree char *hash = sb_document_sha256(session->document);
   g_autofree char *folder = session->runs != NULL ? g_strdup(session->runs) : sb_shipped_runs();
   char *date = NULL;
   SbRunHandle *handle = sb_stored_run_find(&date, folder, hash, session->model);
@@ -480,21 +466,17 @@ void sb_session_values_changed(SbSession *session) {
   }
   if (session->ticket == 0 || !is_current(session)) {
     const uint64_t drawings = sb_session_drawings(session);
-    g_autofree char *hash = sb_document_sha256(session->document);
-    SbDisplayedRun *known = session->model == NULL                       ? NULL
-                            : answers(session->shown, &params, drawings) ? session->shown
-                            : answers(session->earlier, &params, drawings)
-                                ? session->earlier
-                                : sb_session_pinned_answer(session, &params);
-    known =
-        known == NULL && session->model != NULL ? sb_run_cache_get(session->cache, hash) : known;
+    SbDisplayedRun *known = session->model == NULL ? NULL
+                            : answers(session->shown, &params, drawings)
+                                ? session->shown
+                                : sb_run_cache_get(session->cache, &params, drawings);
     // A file is looked for where nothing else is shown: later, what is known here starts better.
     SbDisplayedRun *stored =
         known == NULL && session->heavy && session->shown == NULL && session->ticket == 0
-            ? stored_run(session, &params, hash)
+            ? stored_run(session, &params)
             : NULL;
     if (stored != NULL) {
-      sb_run_cache_put(session->cache, hash, stored);
+      sb_run_cache_put(session->cache, stored);
     }
     if (known != NULL || stored != NULL) {
       adopt(session, known != NULL ? known : stored);

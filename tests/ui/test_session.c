@@ -177,6 +177,27 @@ static double breakaway(const SbSummary *summary) {
   return sb_figure_value(summary, sb_figure_find("cycle.force_breakaway_N"));
 }
 
+// A session has one store of its runs: that of a saved design stays after any number of others, the
+// oldest run that nothing uses does not.
+static void test_runs(void) {
+  g_autoptr(SbSession) session = sb_session_new();
+  sb_session_edit(session, SB_P_MODELS_FILM, "thesis");
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.62 mm");
+  settle(session);
+  g_assert_true(sb_session_pin(session));
+  for (int i = 0; i < 10; i++) {
+    g_autofree char *text = g_strdup_printf("%.3f mm", 1.600 + 0.001 * i);
+    sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, text);
+    settle(session);
+  }
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.608 mm");
+  g_assert_false(sb_session_is_stale(session, NULL, NULL));
+  sb_session_use_pin(session, 0);
+  g_assert_false(sb_session_is_stale(session, NULL, NULL));
+  sb_session_edit(session, SB_P_SEAL_SECTION_DIAMETER, "1.6 mm");
+  g_assert_true(sb_session_is_stale(session, NULL, NULL));
+}
+
 // Three designs are kept, two are drawn; they go by what differs, come back from the file with
 // equal figures, and are used as one step, at once.
 static void test_pins(void) {
@@ -591,6 +612,7 @@ int main(int argc, char **argv) {
   // Unsaved changes of these tests are not the user's.
   g_autofree char *home = g_dir_make_tmp("sealbench-session-XXXXXX", NULL);
   g_setenv("XDG_DATA_HOME", home, TRUE);
+  g_test_add_func("/session/runs", test_runs);
   g_test_add_func("/session/save-refuses-a-changed-file", test_save_refuses_a_changed_file);
   g_test_add_func("/session/reload-and-merge", test_reload_and_merge);
   g_test_add_func("/session/keep-both", test_keep_both);
