@@ -617,7 +617,8 @@ static void print_bar(SbProgress *progress, int percent, double left_s) {
   progress->width = MAX(width, 0);
 }
 
-void sb_progress_update(SbProgress *progress, double fraction) {
+void sb_progress_update(void *of, double fraction) {
+  SbProgress *progress = of;
   if (common.quiet) {
     return;
   }

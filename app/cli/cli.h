@@ -240,7 +240,7 @@ typedef struct {
 void sb_progress_start(SbProgress *progress, const char *what);
 
 // Prints the fraction done, 0 to 1, if it differs from what was printed last.
-void sb_progress_update(SbProgress *progress, double fraction);
+void sb_progress_update(void *progress, double fraction);
 
 // Removes the bar.
 void sb_progress_end(SbProgress *progress);

@@ -25,15 +25,6 @@ static char *fitted_name(const SbStudyFile *study, size_t curve, size_t file) {
   return g_strdup_printf("fitted-%s.%s", name, fitted_file[file].ending);
 }
 
-static char *value_text(const SbCalibrated *of, double value) {
-  const SbParam *param = sb_param(of->id);
-  char digits[SB_NUMBER_SIZE];
-  return g_strdup(
-      isfinite(value)
-          ? sb_number_round(digits, sb_quantity_to_shown(value, param->si, param->unit), 5)
-          : "-");
-}
-
 // Explains estimates outside of their interval: the mode of a skewed posterior, for example one
 // that ends where the stem stops returning, may be beyond its 97.5 % quantile.
 static void print_modes_outside(const SbCalibration *of) {
@@ -49,19 +40,8 @@ static void print_modes_outside(const SbCalibration *of) {
 
 static void print_table(const SbStudyFile *study, const SbCalibration *of) {
   printf("%s: %zu curves, %zu points\n", study->title, of->curves, of->points);
-  printf("  %-36s%-8s%11s%11s  %-24s%s\n", "", "", "before", "estimate", "95 % interval",
-         "identifiable");
-  for (size_t j = 0; j < of->parameters; j++) {
-    const SbCalibrated *one = &of->parameter[j];
-    g_autofree char *before = value_text(one, one->before);
-    g_autofree char *estimate = value_text(one, one->estimate);
-    g_autofree char *low = value_text(one, one->interval[0]);
-    g_autofree char *high = value_text(one, one->interval[1]);
-    g_autofree char *interval = g_strdup_printf("%s to %s", low, high);
-    static const char *const identifiable[] = {"yes", "only with another", "no, as before"};
-    printf("  %-36s%-8s%11s%11s  %-24s%s\n", one->name, sb_param(one->id)->unit, before, estimate,
-           interval, of->samples > 0 ? identifiable[one->identifiable] : "-");
-  }
+  g_autoptr(SbTable) table = sb_calibration_table(of);
+  (void)sb_cli_table(table, NULL);
   print_modes_outside(of);
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];
@@ -115,10 +95,6 @@ static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
   return good;
 }
 
-static void on_progress(void *data, double fraction) {
-  sb_progress_update(data, fraction);
-}
-
 static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   SbCalibration calibration;
   SbReport report = {0};
@@ -126,7 +102,7 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   const SbCalibrateHooks hooks = {.jobs = options->threads,
                                   .cancelled = sb_cli_interrupted,
-                                  .progress = on_progress,
+                                  .progress = sb_progress_update,
                                   .data = &progress};
   sb_progress_start(&progress, "calibrating ");
   sb_cli_catch_interrupts();

@@ -103,26 +103,30 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, void *data) {
   return issues->len > 0 ? MAX(code, SB_EXIT_INPUT) : code;
 }
 
-// Prints a figure of all runs, and the difference of each from the first, with the decimals that
-// the error of the differences supports.
-static void print_figure(const GPtrArray *runs, int f) {
+// Adds a figure of all runs, with the difference of each from the first and the decimals that the
+// error of the differences supports.
+static void add_figure(SbTable *table, const GPtrArray *runs, int f) {
   g_autofree SbFigureCompared *design = g_new(SbFigureCompared, runs->len);
+  g_autofree SbTableCell *cell = g_new0(SbTableCell, runs->len + 1);
+  bool known = false;
   for (guint i = 0; i < runs->len; i++) {
     const Run *run = runs->pdata[i];
     design[i] = (SbFigureCompared){run->of.figure[f], run->error[f], run->methods};
+    known |= !isnan(run->of.figure[f]);
   }
-  g_autofree char *label = sb_figure_label(f);
-  printf("  %-36s", label);
+  if (!known || !sb_figure(f)->brief) {
+    return;
+  }
+  cell[0] = sb_cell_own(sb_figure_label(f));
   for (guint i = 0; i < runs->len; i++) {
     char value[SB_FORMAT_MAX], change[SB_FORMAT_MAX];
     const char *unit = sb_figure_compared(value, change, f, design, runs->len, i);
     const char *space = *unit != '\0' ? " " : "";
-    g_autofree char *all = *change == '\0' ? g_strdup_printf("%s%s%s", value, space, unit)
-                                           : g_strdup_printf("%s%s%s (%s%s%s)", value, space, unit,
-                                                             change, space, unit);
-    printf("  %-*s", i == 0 ? 12 : 24, all);
+    cell[i + 1] = sb_cell_shown(
+        *change == '\0' ? g_strconcat(value, space, unit, NULL)
+                        : g_strconcat(value, space, unit, " (", change, space, unit, ")", NULL));
   }
-  putchar('\n');
+  sb_table_add(table, cell);
 }
 
 // Prints the figures of the short table that a run knows, the measured loops and the chart.
@@ -134,15 +138,15 @@ static void print_runs(const GPtrArray *runs) {
     g_ptr_array_add(names, (char *)run->of.name);
     g_ptr_array_add(drawn, run->run);
   }
-  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
-    bool known = false;
-    for (guint i = 0; i < runs->len; i++) {
-      known |= !isnan(((const Run *)runs->pdata[i])->of.figure[f]);
-    }
-    if (sb_figure(f)->brief && known) {
-      print_figure(runs, f);
-    }
+  g_autofree SbTableColumn *columns = g_new0(SbTableColumn, runs->len + 1);
+  for (guint i = 0; i <= runs->len; i++) {
+    columns[i].layout = i == 0 ? "  %-36s" : i == 1 ? "  %-12s" : "  %-24s";
   }
+  g_autoptr(SbTable) table = sb_table_new(columns, runs->len + 1);
+  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+    add_figure(table, runs, f);
+  }
+  (void)sb_cli_table(table, NULL);
   const SbComparison *first = ((const Run *)runs->pdata[0])->of.comparison;
   for (guint i = 0; i < runs->len; i++) {
     const Run *run = runs->pdata[i];

@@ -9,49 +9,61 @@
 
 static const char result_name[] = "results.json";
 
-static void print_parameters(const SbStudyFile *study, const SbDesign *design) {
+static void add_parameters(SbTable *table, const SbStudyFile *study, const SbDesign *design) {
   for (guint k = 0; k < study->vary->len; k++) {
     const SbVary *vary = &g_array_index(study->vary, SbVary, k);
     const SbParam *param = sb_param(vary->id);
-    if (vary->distribution.kind == SB_DISTRIBUTION_LEVELS) {
-      continue;
+    if (vary->distribution.kind != SB_DISTRIBUTION_LEVELS) {
+      sb_table_add(table,
+                   SB_CELLS(sb_cell_text(param->key),
+                            sb_cell_quantity(design->value[k], param->si, param->unit, 6),
+                            sb_cell_text(design->bound_active[k] < 0   ? " at its lower bound"
+                                         : design->bound_active[k] > 0 ? " at its upper bound"
+                                                                       : NULL)));
     }
-    g_autofree char *text = sb_quantity_round(design->value[k], param->si, param->unit, 6);
-    printf("  %-38s %-16s%s\n", param->key, text,
-           design->bound_active[k] < 0   ? " at its lower bound"
-           : design->bound_active[k] > 0 ? " at its upper bound"
-                                         : "");
   }
 }
 
-static void print_figures(const SbStudyFile *study, const SbDesign *design) {
+// Returns the limits on a figure, each with the margin of the design. Owned by the caller.
+static char *limits_text(const SbStudyFile *study, const SbDesign *design, int figure) {
+  GString *out = g_string_new(NULL);
+  for (size_t k = 0; k < study->limits.count; k++) {
+    const SbLimit *limit = &study->limits.item[k];
+    if (limit->figure == figure) {
+      g_autofree char *bound = sb_limit_format(figure, limit->low, limit->high);
+      const double margin = sb_design_margin(design, study, k);
+      g_autofree char *by = sb_figure_format(figure, fabs(margin), NAN);
+      const bool active = design->limit_active[2 * k] || design->limit_active[2 * k + 1];
+      g_string_append_printf(out, " %s: %s%s%s", bound, isnan(margin) ? "not known" : by,
+                             isnan(margin) ? ""
+                             : margin < 0  ? " beyond it"
+                                           : " within it",
+                             active ? ", active" : "");
+    }
+  }
+  return g_string_free(out, FALSE);
+}
+
+// Returns the design: its parameters, then its figures with their limits.
+static SbTable *make_table(const SbStudyFile *study, const SbDesign *design) {
+  static const SbTableColumn columns[] = {
+      {.layout = "  %-38s"}, {.layout = " %-16s"}, {.layout = "%s"}};
+  SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
+  add_parameters(table, study, design);
   for (guint i = 0; i < study->figures->len; i++) {
     const int figure = g_array_index(study->figures, int, i);
-    g_autofree char *text = sb_figure_format(figure, design->figure[i], NAN);
-    printf("  %-38s %-16s", sb_figure(figure)->path, text);
-    for (size_t k = 0; k < study->limits.count; k++) {
-      const SbLimit *limit = &study->limits.item[k];
-      if (limit->figure == figure) {
-        g_autofree char *bound = sb_limit_format(figure, limit->low, limit->high);
-        const double margin = sb_design_margin(design, study, k);
-        g_autofree char *by = sb_figure_format(figure, fabs(margin), NAN);
-        const bool active = design->limit_active[2 * k] || design->limit_active[2 * k + 1];
-        printf(" %s: %s%s%s", bound, isnan(margin) ? "not known" : by,
-               isnan(margin) ? ""
-               : margin < 0  ? " beyond it"
-                             : " within it",
-               active ? ", active" : "");
-      }
-    }
-    putchar('\n');
+    sb_table_add(table, SB_CELLS(sb_cell_text(sb_figure(figure)->path),
+                                 sb_cell_shown(sb_figure_format(figure, design->figure[i], NAN)),
+                                 sb_cell_own(limits_text(study, design, figure))));
   }
+  return table;
 }
 
 static void print_table(const SbStudyFile *study, const SbDesign *design) {
   printf("%s: %s %s\n", study->title, study->design.maximise ? "maximise" : "minimise",
          sb_figure(study->design.figure)->path);
-  print_parameters(study, design);
-  print_figures(study, design);
+  g_autoptr(SbTable) table = make_table(study, design);
+  (void)sb_cli_table(table, NULL);
   if (design->checked) {
     printf("  over the tolerances all limits are met with a probability of %.6g %% "
            "(" SB_INTERVAL_COVERS ", 95 %%: %.6g to %.6g %%; by FORM %.6g "

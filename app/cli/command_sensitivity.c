@@ -89,7 +89,9 @@ static char *figure_text(int figure, double value) {
   return sb_quantity_round(value, sb_figure(figure)->si, sb_figure(figure)->shown, 4);
 }
 
-static void print_figure(const SbGradient *gradient, size_t figure, const SbModel *model) {
+// Adds a figure: its value, the parameters of the largest effect, and those without a derivative.
+static void add_figure(SbTable *table, const SbGradient *gradient, size_t figure,
+                       const SbModel *model) {
   enum { ROWS = 12 };
   const int index = sb_gradient_figure(gradient, figure);
   const double value = sb_gradient_value(gradient, figure);
@@ -99,39 +101,49 @@ static void print_figure(const SbGradient *gradient, size_t figure, const SbMode
   g_autofree char *text = figure_text(index, value);
   const char *reason = parameters > 0 ? sb_gradient_reason(gradient, figure, 0) : NULL;
   if (isnan(value)) {
-    printf("%s: - (%s)\n", sb_figure(index)->path, reason != NULL ? reason : "not computed");
+    sb_table_note(table, "%s: - (%s)", sb_figure(index)->path,
+                  reason != NULL ? reason : "not computed");
     return;
   }
-  printf("%s: %s\n", sb_figure(index)->path, text);
+  sb_table_note(table, "%s: %s", sb_figure(index)->path, text);
   for (size_t i = 0; i < count && i < ROWS; i++) {
     const SbEffect *effect = &effects[i];
     const SbParamId id = sb_gradient_parameter(gradient, effect->parameter);
-    g_autofree char *change = figure_text(index, effect->change);
-    g_autofree char *step = effect->tolerance ? sb_param_format(id, effect->step) : g_strdup("5 %");
-    printf("  %-34s %14s per %-10s error %.1g %%\n", sb_param(id)->key, change, step,
-           100 * effect->error / fabs(effect->change));
+    const double error = 100 * effect->error / fabs(effect->change);
+    sb_table_add(table, SB_CELLS(sb_cell_text(sb_param(id)->key),
+                                 sb_cell_shown(figure_text(index, effect->change)),
+                                 sb_cell_own(effect->tolerance ? sb_param_format(id, effect->step)
+                                                               : g_strdup("5 %")),
+                                 sb_cell_shown(g_strdup_printf("%.1g %%", error))));
   }
   if (count > ROWS) {
-    printf("  and %zu parameters of less effect: --json\n", count - ROWS);
+    sb_table_note(table, "  and %zu parameters of less effect: --json", count - ROWS);
   }
   for (size_t i = 0, printed = 0; i < parameters; i++) {
     const char *why = sb_gradient_reason(gradient, figure, i);
     // A parameter without another value is one that the model does not have.
     if (why != NULL && !sb_gradient_is_fixed(gradient, figure, i) && printed++ < ROWS) {
-      printf("  %-34s no derivative: %s\n", sb_param(sb_gradient_parameter(gradient, i))->key, why);
+      sb_table_note(table, "  %-34s no derivative: %s",
+                    sb_param(sb_gradient_parameter(gradient, i))->key, why);
     }
   }
 }
 
-// The short table's figures, or all that were asked for.
+// Prints the figures of short tables, or all that were requested.
 static void print_table(const SbGradient *gradient, const SbCliFile *file, bool asked) {
-  printf("%s\n", sb_document_title(file->document));
+  static const SbTableColumn columns[] = {{.layout = "  %-34s"},
+                                          {.layout = " %14s"},
+                                          {.layout = " per %-10s"},
+                                          {.layout = " error %s"}};
+  g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (size_t i = 0; i < sb_gradient_figures(gradient); i++) {
     const bool brief = sb_figure(sb_gradient_figure(gradient, i))->brief;
     if (asked || (brief && !isnan(sb_gradient_value(gradient, i)))) {
-      print_figure(gradient, i, file->model);
+      add_figure(table, gradient, i, file->model);
     }
   }
+  printf("%s\n", sb_document_title(file->document));
+  (void)sb_cli_table(table, NULL);
 }
 
 // ---- The command ----

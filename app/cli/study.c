@@ -38,16 +38,12 @@ SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument
   return status;
 }
 
-static void on_progress(void *data, double fraction) {
-  sb_progress_update(data, fraction);
-}
-
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model) {
   g_autofree char *what = g_strdup_printf("study %s ", sb_study_name(kind));
   SbProgress progress;
   sb_progress_start(&progress, what);
   sb_cli_catch_interrupts();
-  SbStudyHooks hooks = {on_progress, sb_cli_interrupted, &progress};
+  SbStudyHooks hooks = {sb_progress_update, sb_cli_interrupted, &progress};
   SbReport report = {0};
   SbStatus status = sb_study_make(out, kind, model, &hooks, &report);
   sb_progress_end(&progress);

@@ -172,7 +172,7 @@ static char *value_text(const SbCalibrated *of, double value, bool unit) {
   const double width = sb_quantity_to_shown(of->interval[1], param->si, param->unit) -
                        sb_quantity_to_shown(of->interval[0], param->si, param->unit);
   const int digits =
-      width > 0 && shown != 0 ? (int)fmin(fmax(1 + ceil(log10(fabs(shown) / width)), 2), 7) : 5;
+      width > 0 && shown != 0 ? (int)fmin(fmax(1 + ceil(log10(fabs(shown) / width)), 4), 7) : 5;
   char text[SB_NUMBER_SIZE];
   sb_number_round(text, shown, digits);
   return g_strconcat(text, unit && *param->unit != '\0' ? " " : "", unit ? param->unit : "", NULL);
@@ -195,41 +195,58 @@ static char *identifiable_text(const SbCalibration *of, size_t j) {
   return g_strdup_printf("only with %s", *symbol != '\0' ? symbol : of->parameter[most].name);
 }
 
-// Fills the row of a parameter, whose texts `texts` owns.
-static void fill_row(SbCalibrationRow *row, GPtrArray *texts, const SbCalibration *of, size_t j) {
-  const SbCalibrated *one = &of->parameter[j];
-  g_autofree char *low = value_text(one, one->interval[0], false);
-  g_autofree char *high = value_text(one, one->interval[1], false);
-  char *const own[] = {value_text(one, one->before, true), value_text(one, one->estimate, false),
-                       g_strdup_printf("%s to %s", low, high), identifiable_text(of, j)};
-  for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
-    g_ptr_array_add(texts, own[i]);
+enum { BEFORE = 1, ESTIMATE, INTERVAL, IDENTIFIABLE };
+
+SbTable *sb_calibration_table(const SbCalibration *of) {
+  static const SbTableColumn columns[] = {{.layout = "  %-36s"},
+                                          {.layout = "%18s", .head = "before"},
+                                          {.layout = "%11s", .head = "estimate"},
+                                          {.layout = "  %-24s", .head = "95 % interval"},
+                                          {.layout = "%s", .head = "identifiable"}};
+  SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
+  for (size_t j = 0; j < of->parameters; j++) {
+    const SbCalibrated *one = &of->parameter[j];
+    g_autofree char *low = value_text(one, one->interval[0], false);
+    g_autofree char *high = value_text(one, one->interval[1], false);
+    sb_table_add(table, SB_CELLS(sb_cell_text(one->name),
+                                 sb_cell_shown(value_text(one, one->before, true)),
+                                 sb_cell_shown(value_text(one, one->estimate, false)),
+                                 sb_cell_own(g_strdup_printf("%s to %s", low, high)),
+                                 sb_cell_own(identifiable_text(of, j))));
   }
-  *row = (SbCalibrationRow){.name = one->name,
-                            .symbol = sb_param(one->id)->symbol,
-                            .before = one->before,
-                            .estimate = one->estimate,
-                            .low = one->interval[0],
-                            .high = one->interval[1],
-                            .prior_low = one->prior[0],
-                            .prior_high = one->prior[1],
-                            .prior = &one->distribution,
-                            .texts = {own[0], own[1], own[2]},
-                            .identifiable = own[3],
-                            .role = one->identifiable == SB_IDENTIFIABLE_YES ? SB_ROLE_PASS
-                                    : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER
-                                        ? SB_ROLE_WARN
-                                        : SB_ROLE_SECOND};
+  return table;
+}
+
+// Fills the row of a parameter with the texts of the table, borrowed.
+static void fill_row(SbCalibrationRow *row, const SbTable *table, const SbCalibration *of,
+                     size_t j) {
+  const SbCalibrated *one = &of->parameter[j];
+  const SbTableCell *cell = sb_table_row(table, j)->cell;
+  *row = (SbCalibrationRow){
+      .name = one->name,
+      .symbol = sb_param(one->id)->symbol,
+      .before = one->before,
+      .estimate = one->estimate,
+      .low = one->interval[0],
+      .high = one->interval[1],
+      .prior_low = one->prior[0],
+      .prior_high = one->prior[1],
+      .prior = &one->distribution,
+      .texts = {cell[BEFORE].shown, cell[ESTIMATE].shown, cell[INTERVAL].shown},
+      .identifiable = cell[IDENTIFIABLE].shown,
+      .role = one->identifiable == SB_IDENTIFIABLE_YES          ? SB_ROLE_PASS
+              : one->identifiable == SB_IDENTIFIABLE_WITH_OTHER ? SB_ROLE_WARN
+                                                                : SB_ROLE_SECOND};
 }
 
 void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *of,
                               const SbStudyFile *study, bool dark) {
-  g_autoptr(GPtrArray) texts = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(SbTable) table = sb_calibration_table(of);
   SbCalibrationRow *row = g_new0(SbCalibrationRow, of->parameters + 1);
   SbCalibrationLoop *loop = g_new0(SbCalibrationLoop, of->curves + 1);
   bool all_identifiable = true;
   for (size_t j = 0; j < of->parameters; j++) {
-    fill_row(&row[j], texts, of, j);
+    fill_row(&row[j], table, of, j);
     all_identifiable = all_identifiable && of->parameter[j].identifiable == SB_IDENTIFIABLE_YES;
   }
   for (size_t c = 0; c < of->curves; c++) {

@@ -3,12 +3,17 @@
 
 #include "app/chart/calibration.h"
 #include "app/study/calibrate.h"
+#include "app/table/table.h"
 
 #include <stdio.h>
 
 // Returns the JSON document of `sealbench calibrate`. `study` is the file that `calibration` was
 // made from.
 char *sb_calibration_json(const SbCalibration *calibration, const SbStudyFile *study);
+
+// Returns the parameters with their values before and after the fit, intervals and whether the data
+// identify them, for people. Freed by sb_table_free().
+SbTable *sb_calibration_table(const SbCalibration *calibration);
 
 // Writes the samples of the posterior as comma-separated values: `sample` (number from 0), then a
 // column "key [SI unit]" for each parameter. The heading alone if nothing was sampled. Errors of

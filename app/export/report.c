@@ -324,7 +324,7 @@ static void draw_remarks(SbReportPages *pages, const SbDocument *document) {
   for (int kind = 0; kind < SB_REMARK_KINDS; kind++) {
     for (size_t i = 0; i < sb_document_remark_count(document, (SbRemarkKind)kind); i++) {
       if (i == 0) {
-        sb_table_note(table, names[kind]);
+        sb_table_note(table, "%s", names[kind]);
       }
       sb_table_add(
           table, SB_CELLS(sb_cell_text(sb_document_remark_name(document, (SbRemarkKind)kind, i)),

@@ -186,7 +186,7 @@ void sb_report_inputs(SbReportPages *pages, const SbDocument *document, const Sb
       if (!named) {
         group = sb_param_group((SbParamId)i);
         g_autofree char *name = group_of((SbParamId)i);
-        sb_table_note(table, name);
+        sb_table_note(table, "%s", name);
         named = true;
       }
       done[i] = true;

@@ -224,9 +224,8 @@ static void draw_varied(SbReportPages *pages, const Study *study) {
     const SbVary *vary =
         file->lines != NULL ? &g_array_index(file->lines, SbVary, k) : vary_at(study, k);
     if (file->lines != NULL && vary->grid != grid) {
-      g_autofree char *name = g_strdup_printf("Grid %u, %zu samples", vary->grid,
-                                              sb_study_grid_samples(file, vary->grid));
-      sb_table_note(table, name);
+      sb_table_note(table, "Grid %u, %zu samples", vary->grid,
+                    sb_study_grid_samples(file, vary->grid));
       grid = vary->grid;
     }
     const bool is_param = vary->id != SB_VARY_VARIABLE;

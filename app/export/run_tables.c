@@ -57,7 +57,7 @@ static void add_figures(SbTable *table, const SbSummary *summary, SbFigureGroup 
       continue;
     }
     if (name != NULL) {
-      sb_table_note(table, name);
+      sb_table_note(table, "%s", name);
       name = NULL;
     }
     char *why =

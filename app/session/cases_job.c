@@ -16,18 +16,13 @@ struct SbCasesJob {
   void *data;
 };
 
-static bool is_cancelled(void *data) {
-  SbCasesJob *job = data;
-  return sb_worker_cancelled(&job->worker);
-}
-
 static void work(void *owner) {
   SbCasesJob *job = owner;
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
   job->document = sb_document_parse(job->text, strlen(job->text), "cases", job->folder, issues);
   if (job->document != NULL) {
-    const SbRunHooks hooks = {.cancelled = is_cancelled, .data = job};
+    const SbRunHooks hooks = {.cancelled = sb_worker_cancelled, .data = &job->worker};
     // A case that fails says so in the answers that it has none for.
     (void)sb_cases_judge(job->verdict, sb_run_handle_run(job->handle), job->document, &hooks,
                          problems);

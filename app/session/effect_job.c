@@ -32,10 +32,6 @@ const char *sb_effect_goal_name(int index) {
   return _(goals[index].name);
 }
 
-static bool is_cancelled(void *data) {
-  return sb_worker_cancelled(&((SbEffectJob *)data)->worker);
-}
-
 static void work(void *owner) {
   SbEffectJob *job = owner;
   SbParamId id[SB_PARAM_COUNT];
@@ -60,8 +56,8 @@ static void work(void *owner) {
   const SbQuestion question = {.base = job->model,
                                .figure = figure,
                                .figure_count = SB_EFFECT_GOALS,
-                               .cancelled = is_cancelled,
-                               .data = job};
+                               .cancelled = sb_worker_cancelled,
+                               .data = &job->worker};
   if (sb_evaluator_create(&evaluator, NULL) == SB_OK &&
       sb_gradient_create(&gradient, evaluator, &question, id, count, NULL, NULL) == SB_OK) {
     g_autofree SbEffect *effect = g_new(SbEffect, count + 1);

@@ -15,10 +15,6 @@ struct SbSlopeJob {
   SbGradient *gradient; // the thread's until it has ended; owned
 };
 
-static bool is_cancelled(void *data) {
-  return sb_worker_cancelled(&((SbSlopeJob *)data)->worker);
-}
-
 static void work(void *owner) {
   SbSlopeJob *job = owner;
   int figure[SB_FIGURE_COUNT];
@@ -31,8 +27,8 @@ static void work(void *owner) {
                          .figure_count = SB_FIGURE_COUNT,
                          .as_run = true,
                          .keep = true,
-                         .cancelled = is_cancelled,
-                         .data = job};
+                         .cancelled = sb_worker_cancelled,
+                         .data = &job->worker};
   if (job->rings == NULL && sb_evaluator_create(&job->rings, NULL) == SB_OK &&
       sb_evaluator_ask(value, job->rings, &question, NULL) != SB_OK) {
     sb_evaluator_destroy(job->rings);

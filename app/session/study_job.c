@@ -15,19 +15,9 @@ struct SbStudyJob {
   SbReport report;
 };
 
-static void on_progress(void *data, double fraction) {
-  SbStudyJob *job = data;
-  sb_worker_set_progress(&job->worker, fraction);
-}
-
-static bool is_cancelled(void *data) {
-  SbStudyJob *job = data;
-  return sb_worker_cancelled(&job->worker);
-}
-
 static void work(void *owner) {
   SbStudyJob *job = owner;
-  SbStudyHooks hooks = {on_progress, is_cancelled, job};
+  SbStudyHooks hooks = {sb_worker_set_progress, sb_worker_cancelled, &job->worker};
   job->status = sb_study_make(job->study, job->kind, job->model, &hooks, &job->report);
 }
 

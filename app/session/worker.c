@@ -29,12 +29,12 @@ void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owne
   worker->thread = g_thread_new(name, run, worker);
 }
 
-void sb_worker_set_progress(SbWorker *worker, double share) {
-  g_atomic_int_set(&worker->per_mille, (gint)(1000 * share));
+void sb_worker_set_progress(void *worker, double share) {
+  g_atomic_int_set(&((SbWorker *)worker)->per_mille, (gint)(1000 * share));
 }
 
-bool sb_worker_cancelled(SbWorker *worker) {
-  return g_atomic_int_get(&worker->cancel) != 0;
+bool sb_worker_cancelled(void *worker) {
+  return g_atomic_int_get(&((SbWorker *)worker)->cancel) != 0;
 }
 
 double sb_worker_progress(SbWorker *worker) {

@@ -26,11 +26,12 @@ typedef struct {
 void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owner), void *owner,
                      void (*done)(void *data), void *data);
 
-// Called by `work`: sets the fraction done, 0 to 1.
-void sb_worker_set_progress(SbWorker *worker, double share);
+// Called by `work`: sets the fraction done, 0 to 1. Like sb_worker_cancelled() it takes an
+// SbWorker * as a hook of the engine does.
+void sb_worker_set_progress(void *worker, double share);
 
 // Called by `work`: returns whether it is to end. Any thread.
-bool sb_worker_cancelled(SbWorker *worker);
+bool sb_worker_cancelled(void *worker);
 
 // Returns the fraction done, 0 to 1. Any thread.
 double sb_worker_progress(SbWorker *worker);

@@ -4,6 +4,7 @@
 #include "app/base/unit.h"
 
 #include <math.h>
+#include <stdarg.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -56,7 +57,11 @@ void sb_table_mark(SbTable *table, SbTableMark mark) {
   ((SbTableRow *)table->row->pdata[table->row->len - 1])->mark = mark;
 }
 
-void sb_table_note(SbTable *table, const char *text) {
+void sb_table_note(SbTable *table, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
   add_row(table)->note = keep(table, text);
 }
 

@@ -106,7 +106,7 @@ void sb_table_add(SbTable *table, const SbTableCell *cells);
 void sb_table_mark(SbTable *table, SbTableMark mark);
 
 // Adds a line between the rows: a subheading, in text and reports alone.
-void sb_table_note(SbTable *table, const char *text);
+void sb_table_note(SbTable *table, const char *format, ...) G_GNUC_PRINTF(2, 3);
 
 // Returns the columns and writes their number to *count.
 const SbTableColumn *sb_table_columns(const SbTable *table, size_t *count);

@@ -13,20 +13,12 @@ struct SbCalibrateJob {
   SbReport report;
 };
 
-static void on_progress(void *data, double fraction) {
-  SbCalibrateJob *job = data;
-  sb_worker_set_progress(&job->worker, fraction);
-}
-
-static bool is_cancelled(void *data) {
-  SbCalibrateJob *job = data;
-  return sb_worker_cancelled(&job->worker);
-}
-
 static void work(void *owner) {
   SbCalibrateJob *job = owner;
-  const SbCalibrateHooks hooks = {
-      .jobs = 1, .cancelled = is_cancelled, .progress = on_progress, .data = job};
+  const SbCalibrateHooks hooks = {.jobs = 1,
+                                  .cancelled = sb_worker_cancelled,
+                                  .progress = sb_worker_set_progress,
+                                  .data = &job->worker};
   job->started = true;
   job->status = sb_calibrate(&job->found, job->study, &hooks, job->issues, &job->report);
 }
