@@ -138,6 +138,32 @@ static double gauge_of(const SbFluidState *state, const SbModel *model) {
          sb_model_value(model, SB_P_CANISTER_AMBIENT_PRESSURE);
 }
 
+// Figures of propellant k at the temperature T [K], from x over `width`, with the baseline of their
+// names at y [px]. `gauge` is its pressure [Pa].
+static void draw_figures(SbCanvas *c, const SbModel *model, int k, double T, double gauge, double x,
+                         double y, double width) {
+  SbFluidState state;
+  const bool known = state_of(&state, model, k, T);
+  const double gwp = known ? state.figure[SB_FLUID_GWP].value : NAN;
+  const struct {
+    const char *name, *unit;
+    double value, at;
+    int decimals;
+  } figures[] = {
+      {_("gauge pressure"), "MPa", 1e-6 * gauge, 0, 2},
+      {_("density"), "kg/m³", known ? state.figure[SB_FLUID_LIQUID].value : NAN, 0.26, 0},
+      {_("viscosity"), "mPa s", known ? 1e3 * state.figure[SB_FLUID_VISCOSITY].value : NAN, 0.53,
+       3},
+      {"GWP", "", gwp, 0.82, gwp < 10}};
+  for (size_t i = 0; i < G_N_ELEMENTS(figures); i++) {
+    char number[SB_FORMAT_MAX] = "–";
+    if (!isnan(figures[i].value)) {
+      sb_format_fixed(number, figures[i].value, figures[i].decimals);
+    }
+    draw_figure(c, figures[i].name, number, figures[i].unit, x + figures[i].at * width, y);
+  }
+}
+
 void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const SbStudy *study,
                          const SbModel *model, const SbPropellantsLook *look, int k) {
   const SbRect card = layout->card[k];
@@ -165,30 +191,8 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
   }
   char number[SB_FORMAT_MAX];
   SbFluidState state;
-  const bool known = state_of(&state, model, k, T);
-  const double gauge = known ? gauge_of(&state, model) : NAN;
-  const struct {
-    const char *name, *unit;
-    double value, at;
-    int decimals; // -1: three digits
-  } figures[] = {
-      {_("gauge pressure"), "MPa", 1e-6 * gauge, 0, 2},
-      {_("density"), "kg/m³", known ? state.figure[SB_FLUID_LIQUID].value : NAN, 0.26, 0},
-      {_("viscosity"), "mPa s", known ? 1e3 * state.figure[SB_FLUID_VISCOSITY].value : NAN, 0.53,
-       3},
-      {"GWP", "", known ? state.figure[SB_FLUID_GWP].value : NAN, 0.82, -1}};
-  for (size_t i = 0; i < G_N_ELEMENTS(figures); i++) {
-    const double value = figures[i].value;
-    if (isnan(value)) {
-      g_strlcpy(number, "–", sizeof number);
-    } else if (figures[i].decimals < 0) {
-      sb_format_fixed(number, value, value < 10 ? 1 : 0);
-    } else {
-      sb_format_fixed(number, value, figures[i].decimals);
-    }
-    draw_figure(c, figures[i].name, number, figures[i].unit, x + figures[i].at * width,
-                card.y + 54);
-  }
+  const double gauge = state_of(&state, model, k, T) ? gauge_of(&state, model) : NAN;
+  draw_figures(c, model, k, T, gauge, x, card.y + 54, width);
   sb_canvas_hairline(c, x, card.y + 92, x + width, card.y + 92,
                      sb_canvas_role(c, SB_ROLE_HAIRLINE));
   const double force = sb_propellants_value(sb_propellants_series(study, RETURN, k), T);

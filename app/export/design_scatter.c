@@ -273,6 +273,7 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
                  sb_quantity_to_shown(hi + 0.03 * (hi - lo), of->si, of->shown), 0, 1);
   sb_axes_ticks(&axes, 4, 0);
   static const SbRole roles[] = {SB_ROLE_THIRD, SB_ROLE_PASS};
+  static const SbRole words[] = {SB_ROLE_SECOND, SB_ROLE_PASS};
   double line = rect.y + 28;
   for (int place = 0; place < SB_DESIGN_PLACES; place++) {
     const SbDesignPlace *at = &answer->place[place];
@@ -287,11 +288,8 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
         g_strdup_printf(place == SB_DESIGN_BEST ? _("best %s, %zu of %zu beyond")
                                                 : _("present %s, %zu of %zu beyond"),
                         value, beyond, valves);
-    const SbTextStyle style = {SB_TYPE_NOTE, 600,
-                               sb_canvas_role(c, beyond > 0                ? SB_ROLE_ERROR
-                                                 : place == SB_DESIGN_BEST ? SB_ROLE_PASS
-                                                                           : SB_ROLE_SECOND),
-                               1};
+    const SbTextStyle style =
+        sb_canvas_style(c, SB_TYPE_NOTE, 600, beyond > 0 ? SB_ROLE_ERROR : words[place]);
     sb_canvas_text_fit(c, text, &style, rect.x, line, rect.width);
     line += 15;
   }

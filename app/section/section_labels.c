@@ -227,16 +227,13 @@ static void draw_friction(SbSection *section) {
   }
 }
 
-// Arrows on the stem: canister pressure on the nose, the drive and the stop on the rod.
-static void draw_stem_forces(SbSection *section) {
+// The forces of canister pressure and spring at the nose of the stem; the pressure at the height y
+// [px].
+static void draw_nose_forces(SbSection *section, double y) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
-  const SbRect *strip = &section->strip;
-  double axis = axis_of(section);
-  double y = axis - fmin(40, 0.45 * section->valve.rod * section->scale);
   char text[80], value[SB_SECTION_NUMBER];
-
   double nose = sb_section_at(section, section->valve.nose - frame->displacement, 0).x;
   double length = SB_SECTION_PX_PER_NEWTON * fabs(frame->pressure_force);
   if (length > 2) {
@@ -251,7 +248,8 @@ static void draw_stem_forces(SbSection *section) {
   }
 
   if (frame->spring_force >= 0.05) {
-    const double shown = SB_SECTION_PX_PER_NEWTON * frame->spring_force, line = axis - 15;
+    const double shown = SB_SECTION_PX_PER_NEWTON * frame->spring_force;
+    const double line = axis_of(section) - 15;
     sb_draw_arrow(list, nose - shown, line, nose - 1.5, line, 3, 11, 10, palette->second);
     snprintf(text, sizeof text, _("spring %s"), sb_section_force(value, frame->spring_force));
     SbSectionLabel small = label_style(palette->second, 600, SB_LEFT, &palette->stem);
@@ -259,8 +257,15 @@ static void draw_stem_forces(SbSection *section) {
     sb_section_place(section, behind, 1, &small, text);
     sb_section_reserve(section, nose - shown, line - 5, shown, 10);
   }
+}
 
-  double right = strip->x + strip->width - 10;
+// The forces of drive and stop at the stem's rod, at the height y [px].
+static void draw_rod_forces(SbSection *section, double y) {
+  const SbPalette *palette = section->palette;
+  SbDrawList *list = section->list;
+  const SbFrame *frame = section->instant->frame;
+  char text[80], value[SB_SECTION_NUMBER];
+  double right = section->strip.x + section->strip.width - 10;
   double force = frame->force;
   if (fabs(force) >= 0.05) {
     double shown = SB_SECTION_PX_PER_NEWTON * fabs(force);
@@ -279,7 +284,7 @@ static void draw_stem_forces(SbSection *section) {
 
   if (fabs(frame->stop_force) >= 0.05) {
     double shown = SB_SECTION_PX_PER_NEWTON * frame->stop_force;
-    double stop_y = axis - 15;
+    double stop_y = axis_of(section) - 15;
     // On a thin rod it has no line of its own: left of the drive's arrow and label.
     if (y + 11 > stop_y - 6) {
       right = point - (written ? sb_text_width(section->text, text, 14, 700) + 10 : 0);
@@ -292,6 +297,12 @@ static void draw_stem_forces(SbSection *section) {
     const double behind[1][2] = {{MIN(from, from + shown) - 8, stop_y + 4}};
     sb_section_place(section, behind, 1, &small, text);
   }
+}
+
+static void draw_stem_forces(SbSection *section) {
+  const double y = axis_of(section) - fmin(40, 0.45 * section->valve.rod * section->scale);
+  draw_nose_forces(section, y);
+  draw_rod_forces(section, y);
 }
 
 // "Stem" and its speed.
@@ -358,6 +369,28 @@ void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t cou
 }
 
 // The way of the dose once the chamber is open: from the canister over the freed ring.
+// Smooths a path over the inner ring, whose middle is at x = `ring`, and keeps it clear of ring and
+// housing, by at most `clearance`. Returns the smallest distance between these two [m].
+static double clear_path(const SbValveOutline *valve, SbValvePoint *path, size_t count, double ring,
+                         double radius, double clearance) {
+  double least = HUGE_VAL;
+  for (int round = 0; round < 6; round++) {
+    double before = path[0].y;
+    for (size_t i = 1; i + 1 < count; i++) {
+      const double smooth = (before + 2 * path[i].y + path[i + 1].y) / 4;
+      const double off = (path[i].x - ring) / radius;
+      const double low =
+          fabs(off) < 1 ? valve->floor + radius * (1 + sqrt(1 - off * off)) : -HUGE_VAL;
+      const double high = sb_valve_outline_bore(valve, path[i].x);
+      const double clear = fmin(clearance, (high - low) / 2);
+      before = path[i].y;
+      least = fmin(least, high - low);
+      path[i].y = fmin(fmax(smooth, low + clear), high - clear);
+    }
+  }
+  return least;
+}
+
 static void draw_dose_path(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
@@ -394,24 +427,8 @@ static void draw_dose_path(SbSection *section) {
   };
   SbValvePoint way[SB_SECTION_WAY];
   const size_t count = sb_section_curve(way, knot, KNOTS);
-  // Smoothed, and kept clear of ring and housing.
-  double least = HUGE_VAL;
-  for (int round = 0; round < 6; round++) {
-    double before = way[0].y;
-    for (size_t i = 1; i + 1 < count; i++) {
-      double smooth = (before + 2 * way[i].y + way[i + 1].y) / 4;
-      before = way[i].y;
-      double off = (way[i].x - ring) / radius;
-      double low = valve->floor + radius * (1 + sqrt(fmax(1 - off * off, 0)));
-      low = fabs(off) < 1 ? low : -HUGE_VAL;
-      double high = sb_valve_outline_bore(valve, way[i].x);
-      double clear = fmin(0.06 * g, (high - low) / 2);
-      least = fmin(least, high - low);
-      way[i].y = fmin(fmax(smooth, low + clear), high - clear);
-    }
-  }
   // A free ring of schematic shape may still stand in the land edge's way: no path to draw there.
-  if (least * section->scale < 4) {
+  if (clear_path(valve, way, count, ring, radius, 0.06 * g) * section->scale < 4) {
     return;
   }
   sb_section_draw_way(section, way, count);

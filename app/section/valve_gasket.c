@@ -93,24 +93,83 @@ static void cage_spring(SbValveOutline *valve, double thick, double stroke) {
   add_around(valve, SB_VALVE_PLASTIC, cage, sizeof cage / sizeof *cage);
 }
 
+static void add_solid(SbValveOutline *valve, bool moves, const SbValvePoint *point, size_t count) {
+  SbValveSolid *solid = sb_valve_new_solid(valve, moves);
+  for (size_t i = 0; i < count; i++) {
+    sb_valve_add(solid, point[i].x, point[i].y);
+  }
+}
+
+// The body, which clamps both gaskets in pockets up to the radius `pocket`; `hole` is the radius of
+// its plates, `half` half of a gasket's height.
+static void add_body(SbValveOutline *valve, double thick, double half, double hole, double pocket) {
+  const double in = valve->bore + CAGE_IN * thick, out = valve->bore + CAGE_OUT * thick;
+  const double apart = valve->origin[SB_OUTER], plate = half + SB_GASKET_PLATE * thick;
+  const double face = valve->face, slot = valve->slot, roof = valve->chamber_roof;
+  const SbValvePoint inside[] = {{face, valve->outside},
+                                 {face, out},
+                                 {slot, out},
+                                 {slot, in},
+                                 {face, in},
+                                 {face, hole},
+                                 {-half, hole},
+                                 {-half, pocket},
+                                 {half, pocket},
+                                 {half, hole},
+                                 {plate, hole},
+                                 {plate, roof},
+                                 {apart - plate, roof},
+                                 {apart - plate, hole},
+                                 {apart - half, hole},
+                                 {apart - half, pocket},
+                                 {apart + half, pocket},
+                                 {apart + half, hole},
+                                 {valve->end, hole},
+                                 {valve->end, valve->outside}};
+  add_solid(valve, false, inside, sizeof inside / sizeof *inside);
+}
+
+// The stem, whose neck is `length` long and `neck` deep; with a `port` it is two parts.
+static void add_stem(SbValveOutline *valve, double length, double neck, bool port) {
+  const double stem = valve->bore, bevel = BEVEL * neck, far = valve->end + 40 * valve->size;
+  const double right = valve->shoulder, left = right - length, hole = valve->port_left;
+  const SbValvePoint closed[] = {{far, valve->channel},
+                                 {port ? hole : far, stem},
+                                 {right, stem},
+                                 {right - bevel, stem - neck},
+                                 {left + bevel, stem - neck},
+                                 {left, stem},
+                                 {valve->nose, stem},
+                                 {valve->nose, 0},
+                                 {hole, 0},
+                                 {hole, valve->channel}};
+  const SbValvePoint beyond[] = {{far, valve->channel},
+                                 {far, stem},
+                                 {valve->port_right, stem},
+                                 {valve->port_right, valve->channel}};
+  if (port) {
+    add_solid(valve, true, closed + 1, sizeof closed / sizeof *closed - 2);
+    add_solid(valve, true, beyond, sizeof beyond / sizeof *beyond);
+  } else {
+    add_solid(valve, true, closed, sizeof closed / sizeof *closed);
+  }
+}
+
 void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, bool port) {
   const SbValveShape *shape = sb_model_shape(model);
   const double thick = sb_model_value(model, SB_P_GASKET_THICKNESS);
   const double half = 0.5 * thick * (1 - sb_model_value(model, SB_P_GASKET_CRIMP));
   const double outer = 0.5 * sb_model_value(model, SB_P_GASKET_OUTER_DIAMETER);
   const double stem = 0.5 * sb_model_value(model, SB_P_STEM_PRESSURE_DIAMETER);
-  const double chamber = 0.5 * sb_model_value(model, SB_P_BORE_DIAMETER);
-  const double plate = SB_GASKET_PLATE * thick, end = END * thick;
-  const double hole = stem + CLEARANCE * thick;
+  const double end = END * thick, apart = shape->seal_spacing;
   // Volume that crimping moves outwards.
   const double crimped = outer * (1 + 0.5 * sb_model_value(model, SB_P_GASKET_CRIMP));
-  const double pocket = crimped + POCKET * thick, apart = shape->seal_spacing;
-  const double top = pocket + WALL * thick;
+  const double pocket = crimped + POCKET * thick;
   valve->gasket = true;
   valve->bore = valve->floor = valve->land = valve->rod = stem;
   valve->size = 2 * 0.93 * pocket;
   valve->rim = pocket;
-  valve->outside = top;
+  valve->outside = pocket + WALL * thick;
   valve->origin[SB_INNER] = 0;
   valve->origin[SB_OUTER] = apart;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
@@ -120,78 +179,27 @@ void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, bool port
   }
   valve->face = -half - end;
   valve->end = apart + half + end;
-  valve->mouth = hole;
+  valve->slot = valve->face - CAGE * thick;
+  valve->mouth = stem + CLEARANCE * thick;
   valve->chamber = 0.5 * apart;
   valve->chamber_left = half;
   valve->chamber_floor = stem;
-  valve->chamber_roof = chamber;
+  valve->chamber_roof = 0.5 * sb_model_value(model, SB_P_BORE_DIAMETER);
 
-  SbValveSolid *body = sb_valve_new_solid(valve, false);
-  const double cage_in = stem + CAGE_IN * thick, cage_out = stem + CAGE_OUT * thick;
-  const double slot = valve->slot = valve->face - CAGE * thick;
-  const SbValvePoint inside[] = {{valve->face, top},
-                                 {valve->face, cage_out},
-                                 {slot, cage_out},
-                                 {slot, cage_in},
-                                 {valve->face, cage_in},
-                                 {valve->face, hole},
-                                 {-half, hole},
-                                 {-half, pocket},
-                                 {half, pocket},
-                                 {half, hole},
-                                 {half + plate, hole},
-                                 {half + plate, chamber},
-                                 {apart - half - plate, chamber},
-                                 {apart - half - plate, hole},
-                                 {apart - half, hole},
-                                 {apart - half, pocket},
-                                 {apart + half, pocket},
-                                 {apart + half, hole},
-                                 {valve->end, hole},
-                                 {valve->end, top}};
-  for (size_t i = 0; i < sizeof inside / sizeof inside[0]; i++) {
-    sb_valve_add(body, inside[i].x, inside[i].y);
-  }
-
-  // The stem: its shoulder meets the chamber gasket's contact at the land edge, its port leaves
-  // the stem gasket's at the port's travel.
+  // The stem's shoulder meets the chamber gasket's contact at the land edge, its port leaves the
+  // stem gasket's at the port's travel.
   const double shoulder = half + sb_model_value(model, SB_P_BORE_LAND_EDGE);
   const double neck = fmin(shape->chamber_depth, 0.7 * stem);
   const double length = fmax(shape->chamber_length, shoulder + half + 0.4 * thick);
-  const double bevel = BEVEL * neck, flange = 0.6 * thick;
-  const double hole_left = apart - half + sb_model_value(model, SB_P_STEM_PORT_TRAVEL) -
-                           0.5 * sb_model_value(model, SB_P_STEM_PORT_DIAMETER);
-  const double hole_right = hole_left + sb_model_value(model, SB_P_STEM_PORT_DIAMETER);
-  const double channel = CHANNEL * stem, far = valve->end + 40 * valve->size;
+  const double hole = sb_model_value(model, SB_P_STEM_PORT_DIAMETER);
   valve->adjusted = neck < shape->chamber_depth || length > shape->chamber_length;
-  valve->nose = shoulder - length - flange;
+  valve->nose = shoulder - length - 0.6 * thick;
   valve->shoulder = shoulder;
-  valve->port_left = hole_left;
-  valve->port_right = hole_right;
-  valve->channel = channel;
+  valve->port_left = apart - half + sb_model_value(model, SB_P_STEM_PORT_TRAVEL) - 0.5 * hole;
+  valve->port_right = valve->port_left + hole;
+  valve->channel = CHANNEL * stem;
+  add_body(valve, thick, half, valve->mouth, pocket);
   stand_around(valve, thick);
   cage_spring(valve, thick, sb_model_value(model, SB_P_DRIVE_STROKE));
-  SbValveSolid *solid = sb_valve_new_solid(valve, true);
-  if (!port) {
-    sb_valve_add(solid, far, channel);
-    sb_valve_add(solid, far, stem);
-  } else {
-    sb_valve_add(solid, hole_left, stem);
-  }
-  sb_valve_add(solid, shoulder, stem);
-  sb_valve_add(solid, shoulder - bevel, stem - neck);
-  sb_valve_add(solid, shoulder - length + bevel, stem - neck);
-  sb_valve_add(solid, shoulder - length, stem);
-  sb_valve_add(solid, valve->nose, stem);
-  sb_valve_add(solid, valve->nose, 0);
-  sb_valve_add(solid, hole_left, 0);
-  if (!port) {
-    sb_valve_add(solid, hole_left, channel);
-    return;
-  }
-  solid = sb_valve_new_solid(valve, true);
-  sb_valve_add(solid, far, channel);
-  sb_valve_add(solid, far, stem);
-  sb_valve_add(solid, hole_right, stem);
-  sb_valve_add(solid, hole_right, channel);
+  add_stem(valve, length, neck, port);
 }

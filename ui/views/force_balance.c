@@ -41,6 +41,18 @@ static double part(SbCanvas *canvas, double x, double y, double scale, SbColor c
   return x + fmax(width, text_width);
 }
 
+// A further term of the balance with its sign; nothing where the force is too small to be shown.
+// Returns where the next one may start.
+static double term(SbCanvas *canvas, double x, double y, double scale, SbColor color,
+                   const char *name, double force) {
+  if (fabs(force) <= 0.005) {
+    return x;
+  }
+  const SbTextStyle plain = sb_canvas_style(canvas, 12, 400, SB_ROLE_SECOND);
+  sb_canvas_text(canvas, force < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y, SB_MIDDLE);
+  return part(canvas, x + 18, y, scale, color, name, force);
+}
+
 void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                            const SbChartData *data) {
   const SbFrame *frame = sb_chart_frame(data);
@@ -73,11 +85,7 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
     x += sb_canvas_text(&canvas, "\xe2\x88\x92", &plain, x, y, SB_LEFT) + 4;
   }
   x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], _("pressure"), frame->pressure_force);
-  if (frame->spring_force > 0.005) {
-    sb_canvas_text(&canvas, "+", &plain, x + 9, y, SB_MIDDLE);
-    x = part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_SECOND], _("spring"),
-             frame->spring_force);
-  }
+  x = term(&canvas, x, y, scale, theme->role[SB_ROLE_SECOND], _("spring"), frame->spring_force);
   const bool gasket = sb_model_is_gasket(data->run.model);
   const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = gasket ? _("stem gasket") : _("outer"),
                                             [SB_INNER] = gasket ? _("chamber gasket") : _("inner")};
@@ -89,18 +97,11 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                                         : _("inner seal off the land");
       x += 14;
       x += sb_canvas_text(&canvas, off, &plain, x, y, SB_LEFT);
-    } else if (fabs(seal->friction) > 0.005) {
-      sb_canvas_text(&canvas, seal->friction < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
-                     SB_MIDDLE);
-      x = part(&canvas, x + 18, y, scale, sb_theme_seal(theme, i), names[i], seal->friction);
+    } else {
+      x = term(&canvas, x, y, scale, sb_theme_seal(theme, i), names[i], seal->friction);
     }
   }
-  if (fabs(frame->stop_force) > 0.005) {
-    sb_canvas_text(&canvas, frame->stop_force < 0 ? "\xe2\x88\x92" : "+", &plain, x + 9, y,
-                   SB_MIDDLE);
-    part(&canvas, x + 18, y, scale, theme->role[SB_ROLE_THIRD], C_("label", "stop"),
-         frame->stop_force);
-  }
+  term(&canvas, x, y, scale, theme->role[SB_ROLE_THIRD], C_("label", "stop"), frame->stop_force);
   cairo_restore(cr);
   sb_canvas_finish(&canvas);
 }

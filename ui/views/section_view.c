@@ -165,6 +165,33 @@ static gboolean asks_field(View *view) {
   return model != NULL && sb_model_look(model)->field == SB_FIELD_PERMEATION;
 }
 
+// Returns how the section of a run is drawn in `picture`, by the toolbar and the run's scene.
+static SbSectionView view_of(View *view, const SbRun *run, SbRect picture, gboolean ran) {
+  const SbSectionLook *look = sb_model_look(sb_run_model(run));
+  const int inset = gtk_combo_box_get_active(GTK_COMBO_BOX(view->inset_combo)); // as output.insets
+  const double enlarged = is_cutaway(view) ? 1 : view->zoom;
+  SbSectionView how = {
+      .width = picture.width * enlarged,
+      .height = picture.height * enlarged,
+      .margin = EDGE,
+      .dark = sb_style_is_dark(),
+      .read_outs = ran,
+      .hide_insets = !ran || inset == 2,
+      .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
+      .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
+      .inset_seal = inset == 1 ? SB_INNER : SB_OUTER,
+      .field = lacks_field(view) ? SB_FIELD_VON_MISES : chosen_field(view),
+      .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
+      .full = look->section == SB_SECTION_FULL,
+      .cutaway = is_cutaway(view),
+      .magnify = view->zoom,
+      .undeformed = look->undeformed,
+      .field_max = look->field_max,
+  };
+  sb_session_camera(view->session, &how.azimuth, &how.elevation);
+  return how;
+}
+
 static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
   View *view = user;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
@@ -184,34 +211,13 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   double height = area_height;
   gboolean ran = sb_session_run(view->session) != NULL;
   SbRect picture = picture_rect(view, area_width, area_height);
-  const SbSectionLook *look = sb_model_look(sb_run_model(now.run));
-  int inset = gtk_combo_box_get_active(GTK_COMBO_BOX(view->inset_combo)); // as output.insets
-  gboolean cutaway = is_cutaway(view);
-  double enlarged = cutaway ? 1 : view->zoom;
-  SbSectionView how = {
-      .width = picture.width * enlarged,
-      .height = picture.height * enlarged,
-      .margin = EDGE,
-      .dark = sb_style_is_dark(),
-      .read_outs = ran,
-      .hide_insets = !ran || inset == 2,
-      .hide_forces = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->forces)),
-      .hide_labels = !gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->labels)),
-      .inset_seal = inset == 1 ? SB_INNER : SB_OUTER,
-      .field = lacks_field(view) ? SB_FIELD_VON_MISES : chosen_field(view),
-      .mesh = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(view->mesh)),
-      .full = look->section == SB_SECTION_FULL,
-      .cutaway = cutaway,
-      .magnify = view->zoom,
-      .undeformed = look->undeformed,
-      .field_max = look->field_max,
-  };
+  const gboolean cutaway = is_cutaway(view), enlarges = !cutaway && view->zoom > 1;
+  SbSectionView how = view_of(view, now.run, picture, ran);
   SbSectionInstant instant = {.frame = now.frame};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     instant.profile[i] = sb_run_profile(now.run, now.frame->seal[i].profile);
     instant.ring[i] = sb_run_shape(now.run, now.frame->seal[i].shape);
   }
-  sb_session_camera(view->session, &how.azimuth, &how.elevation);
   // In a low picture the insets give way to the section, which then takes both its halves.
   if (!cutaway && picture.height < LOW &&
       sb_section_strip_height(now.section, &how, &instant) < LEAST_STRIP) {
@@ -220,7 +226,6 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
         how.full || 2 * sb_section_strip_height(now.section, &how, &instant) < picture.height - 140;
   }
   sb_section_draw(now.section, &view->list, &how, &instant);
-  const bool enlarges = !cutaway && view->zoom > 1;
   const SbPoint corner = {picture.x - (enlarges ? view->pan_x : 0),
                           picture.y - (enlarges ? view->pan_y : 0)};
   sb_section_handles_follow(view->handles, cutaway || !ran ? NULL : now.section,
@@ -231,7 +236,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   gboolean field = instant.ring[SB_OUTER] != NULL || instant.ring[SB_INNER] != NULL;
   if (by_window(view)) {
     gtk_gl_area_queue_render(GTK_GL_AREA(view->gl));
-  } else if ((!field && !cutaway) || enlarged > 1 || !draw_by_gl(view, cr, &picture)) {
+  } else if ((!field && !cutaway) || enlarges || !draw_by_gl(view, cr, &picture)) {
     cairo_translate(cr, picture.x - (cutaway ? 0 : view->pan_x),
                     picture.y - (cutaway ? 0 : view->pan_y));
     sb_draw_list_to_cairo(&view->list, view->text, cr);
