@@ -3,6 +3,7 @@
 
 #include "app/base/error.h"
 #include "app/base/number.h"
+#include "app/base/unit.h"
 #include "app/cad/profile.h"
 
 #include <math.h>
@@ -24,6 +25,38 @@ void sb_cad_body_free(SbCadBody *body) {
   g_free(body);
 }
 
+bool sb_cad_unit(double *scale, const char *unit, GError **error) {
+  g_autofree char *one = g_strdup_printf("1 %s", unit);
+  if (!sb_quantity_parse(scale, one, "m", "mm", error)) {
+    return false;
+  }
+  if (!(*scale > 0)) {
+    sb_app_error_input(error, "'%s' is not a unit of length", unit);
+  }
+  return *scale > 0;
+}
+
+char *sb_cad_axis_text(const double *through, const double *direction) {
+  char shown[6][SB_NUMBER_SIZE];
+  const double length = hypot(hypot(direction[0], direction[1]), direction[2]);
+  for (int i = 0; i < 6; i++) {
+    const double value = i >= 3            ? direction[i - 3] / length
+                         : through != NULL ? 1e3 * through[i]
+                                           : 0;
+    sb_number_round(shown[i], fabs(value) < 1e-9 ? 0 : value, 6);
+  }
+  g_autofree char *point = g_strdup_printf("through %s, %s, %s mm ", shown[0], shown[1], shown[2]);
+  return g_strdup_printf("%salong %s, %s, %s", through != NULL ? point : "", shown[3], shown[4],
+                         shown[5]);
+}
+
+void sb_cad_note(SbCad *cad, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_ptr_array_add(cad->warnings, g_strdup_vprintf(format, arguments));
+  va_end(arguments);
+}
+
 SbCad *sb_cad_new(const char *format) {
   SbCad *cad = g_new0(SbCad, 1);
   cad->format = format;
@@ -43,7 +76,7 @@ void sb_cad_free(SbCad *cad) {
   g_free(cad);
 }
 
-void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices) {
+static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
   const double sign = choices->flip ? -1 : 1;
   for (guint i = 0; i < body->profile->len; i++) {
     SbProfilePoint *p = &g_array_index(body->profile, SbProfilePoint, i);
@@ -69,6 +102,27 @@ void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices) {
     body->solid = body->revolved;
   }
   sb_cad_features(body);
+}
+
+// Differences of the moments across the axis, and of the volumes, from those of a body of
+// revolution that are reported as a warning.
+static const double ROUND = 0.02;
+
+void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    SbCadBody *body = cad->bodies->pdata[i];
+    settle_body(body, choices);
+    double(*const moment)[3] = body->solid.inertia;
+    const double apart = hypot(moment[1][1] - moment[2][2], 2 * moment[1][2]);
+    const double uneven = apart / (moment[1][1] + moment[2][2]);
+    const double more = body->profile->len > 0 ? body->revolved.volume / body->solid.volume - 1 : 0;
+    if (body->measured && (uneven > ROUND || fabs(more) > ROUND)) {
+      sb_cad_note(cad,
+                  "%s: not a body of revolution: its moments across the axis differ by %.2g %%, "
+                  "and its half-section, revolved, has %.2g %% %s volume",
+                  body->name, 100 * uneven, 100 * fabs(more), more < 0 ? "less" : "more");
+    }
+  }
 }
 
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {

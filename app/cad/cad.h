@@ -3,9 +3,11 @@
 //
 // A STEP file is read by the program sealbench-cad (gmsh with OpenCASCADE), which runs with limits
 // of time and memory, finds the axis, cuts the bodies by a half-plane through it and measures them.
-// A DXF is read here: its closed outlines are bodies. The mesh of an STL is cut. All give
-// half-profiles of straight pieces and arcs in the form of the key [part.NAME] profile; other
-// curves are approximated by arcs within SB_CAD_TOLERANCE.
+// An STL is a mesh: each of its connected shells is a body, which is measured and cut here. In a
+// DXF each closed outline is a body. All give half-profiles of straight pieces and arcs in the form
+// of the key [part.NAME] profile; other curves are approximated by arcs within SB_CAD_TOLERANCE.
+// Of a body that the half-plane cuts into several outlines, the profile is the outline with the
+// largest revolved volume; `solid` is always the complete body.
 //
 // Coordinates: x along the axis of the bodies, as in the drawing, then reversed (`flip`) and moved
 // (`shift`); r is the distance from the axis. The valve requires x to point out of the canister.
@@ -42,7 +44,7 @@ typedef struct {
   bool closed;      // as SbProfile.closed
   char *why;        // why the profile is empty; else NULL
   SbSolid revolved; // of the revolved half-section, with a density of 1 kg/m3
-  bool measured;    // `solid` is from the file's own geometry kernel
+  bool measured;    // `solid` is from the file's geometry: a STEP body or the facets of an STL
   SbSolid solid;    // of the body with a density of 1 kg/m3, its axis along x; else as `revolved`
   GArray *features; // of SbCadFeature, in the order of x
 } SbCadBody;
@@ -59,14 +61,21 @@ typedef struct {
 // What the caller states about a drawing. All zeros but the angle: as the file states.
 typedef struct {
   // Unit of the coordinates of a DXF or STL: any unit of length that udunits-2 knows ("mm",
-  // "inch"); NULL: the unit that a DXF states, or the only one of mm, inch, m and um in which an
-  // STL has the size of a valve's part. Not for STEP.
+  // "inch"); NULL: the unit that a DXF states, or the only one of mm, cm, inch, m and um in which
+  // an STL has the size of a valve's part. Not for STEP.
   const char *unit;
-  // DXF: "x" or "y", the line of the drawing about which bodies are revolved; NULL: its centre
-  // line, else x. STL: "x", "y" or "z"; NULL: the axis of rotational symmetry by the moments of
-  // inertia.
-  const char *axis;
-  double angle; // STEP: position of the cutting half-plane about the axis [rad]
+  // Direction of the axis [3] in the file's axes, not zero. NULL: DXF: its longest centre line,
+  // else x; STEP: found from the normals of the round faces, x for a ball; STL: the coordinate axis
+  // of rotational symmetry by the moments of inertia.
+  const double *axis;
+  // A point of the axis [3] [m]. NULL: DXF: the centre line, else the origin; STEP: found with the
+  // direction; STL: the middle of the mesh.
+  const double *through;
+  // Position of the cutting half-plane about the axis [rad], from the first of the file's axes that
+  // is turned with the axis. NULL: STEP: 37.7 degrees; STL: through a vertex farthest from the
+  // axis.
+  const double *angle;
+  double join;  // DXF: largest gap between ends that are one point [m]; 0: 1 um
   double shift; // added to x after `flip` [m]
   bool flip;    // reverse x: for a drawing with the canister on its right
   bool section; // DXF: outlines are full sections anywhere, not half-sections about an axis

@@ -25,12 +25,16 @@ bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, d
 SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
 
 // Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
-// one point, and pieces on the line y = 0 are ignored. Each closed chain, and each open one that
-// ends on that line, becomes a body about the line y = 0 with x as drawn and r = |y|: the part
-// at y >= 0, or below if nothing is above. Appends the bodies to cad->bodies, with the name `name`,
-// and a warning for pieces that close to no outline. The caller then calls sb_cad_body_settle() for
-// each body.
+// one point, and pieces on the line y = 0, of no length or drawn twice are ignored. Each closed
+// chain, and each open one that ends on that line, becomes a body about the line y = 0 with x as
+// drawn and r = |y|: the part at y >= 0, or below if nothing is above; outlines without area do
+// not. Appends the bodies to cad->bodies, with the name `name`, and warnings for pieces that were
+// drawn twice or close to no outline. The caller then calls sb_cad_settle().
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
+
+// Sets the profile of a body from the pieces of its section: the outline with the largest revolved
+// volume; or body->why, unless that is set. Adds a warning to `cad` if there are several outlines.
+void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces, double gap);
 
 // Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
 // the drawing that it is added to.
@@ -39,14 +43,24 @@ SbCadBody *sb_cad_body_new(const char *name);
 // Frees a body; not NULL.
 void sb_cad_body_free(SbCadBody *body);
 
-// Completes a body with a profile: applies `flip` and `shift`, orders the profile
-// counter-clockwise, checks it, and computes `revolved`, `solid` (unless `measured`) and the
-// features. If the profile bounds no body, the profile becomes empty and `why` states the problem.
-// To be called once.
-void sb_cad_body_settle(SbCadBody *body, const SbCadChoices *choices);
+// Completes the bodies: applies `flip` and `shift`, orders the profiles counter-clockwise, checks
+// them, and computes `revolved`, `solid` (unless `measured`) and the features. If a profile bounds
+// no body, it becomes empty and `why` states the problem. Warns for each measured body that is not
+// one of revolution. To be called once.
+void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
 
 // Appends the lands, bores and grooves of the body's profile to body->features.
 void sb_cad_features(SbCadBody *body);
+
+// Adds a sentence to cad->warnings.
+void sb_cad_note(SbCad *cad, const char *format, ...) G_GNUC_PRINTF(2, 3);
+
+// Writes the length of a unit that udunits-2 knows [m]; false with an error if it is none.
+bool sb_cad_unit(double *scale, const char *unit, GError **error);
+
+// Returns the sentence SbCad.axis for an axis along `direction` [3] through the point `through` [3]
+// [m]; NULL: not stated. Freed by g_free().
+char *sb_cad_axis_text(const double *through, const double *direction);
 
 // Returns a drawing without bodies. `format` is static. Freed by sb_cad_free().
 SbCad *sb_cad_new(const char *format);

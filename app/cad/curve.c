@@ -4,7 +4,12 @@
 
 #include <math.h>
 
-enum { DEPTH_MAX = 12, PIECES_MAX = 20000 };
+// Depth of the division, pieces of a curve, and points at which a piece is compared with the curve.
+enum { DEPTH_MAX = 12, PIECES_MAX = 20000, POINTS = 9 };
+
+// Extent of a part that is a point, and largest distance at the points, which leaves room for a
+// larger one between them; relative to the tolerance.
+static const double POINT = 1e-3, BETWEEN = 0.9;
 
 SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]) {
   const double ax = from[0] - middle[0], ay = from[1] - middle[1];
@@ -40,15 +45,23 @@ static double off(const SbCadPiece *piece, const double at[2]) {
 
 static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,
                    int depth, double tolerance) {
-  double p[5][2];
-  for (int i = 0; i < 5; i++) {
-    at(curve, t0 + (t1 - t0) * i / 4, p[i]);
+  double p[POINTS][2], extent = 0;
+  for (int i = 0; i < POINTS; i++) {
+    at(curve, t0 + (t1 - t0) * i / (POINTS - 1), p[i]);
     if (!isfinite(p[i][0]) || !isfinite(p[i][1])) {
       return false;
     }
+    extent = fmax(extent, hypot(p[i][0] - p[0][0], p[i][1] - p[0][1]));
   }
-  const SbCadPiece piece = sb_cad_arc(p[0], p[2], p[4]);
-  if (fabs(piece.bulge) <= 1 && off(&piece, p[1]) <= tolerance && off(&piece, p[3]) <= tolerance) {
+  if (extent <= POINT * tolerance) {
+    return true; // a point
+  }
+  const SbCadPiece piece = sb_cad_arc(p[0], p[POINTS / 2], p[POINTS - 1]);
+  bool good = fabs(piece.bulge) <= 1;
+  for (int i = 1; good && i < POINTS - 1; i++) {
+    good = off(&piece, p[i]) <= BETWEEN * tolerance;
+  }
+  if (good) {
     g_array_append_val(pieces, piece);
     return pieces->len <= PIECES_MAX;
   }

@@ -1,45 +1,85 @@
-// Outlines from DXF text: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE, POLYLINE and SPLINE of the
-// section ENTITIES and of blocks that it inserts, by layers. A pair of lines is a group code and
-// its value.
+// Outlines from DXF text: LINE, ARC, CIRCLE, ELLIPSE, LWPOLYLINE, POLYLINE and SPLINE of model
+// space and of the blocks that it inserts, by layers. A pair of lines is a group code and its
+// value. The file is read twice: first for the unit, the layers and the places of blocks and
+// entities in the text, then each entity where it is placed. Source: AutoCAD DXF Reference
+// (Autodesk).
+//
+// LINE, ELLIPSE, SPLINE and 3D polylines are in world coordinates. The others are in object
+// coordinates, whose x is reversed if the extrusion direction is (0, 0, -1).
 #include "app/base/error.h"
 #include "app/base/number.h"
-#include "app/base/unit.h"
-#include "app/cad/dxf_blocks.h"
+#include "app/cad/cad_private.h"
+#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
 
-// Control points and knots of a spline, its degree, and pieces of a file.
-enum { CONTROL_MAX = 2000, DEGREE_MAX = 15, PIECES_MAX = 100000, LAYERS_MAX = 200 };
+// Control points of a spline, its degree; pieces, entities read, entities placed and layers with
+// pieces of a file; nested blocks, of which one may contain itself; different entities left out.
+enum {
+  CONTROL_MAX = 2000,
+  DEGREE_MAX = 15,
+  PIECES_MAX = 100000,
+  ENTITIES_MAX = 1000000,
+  PLACED_MAX = 100000,
+  LAYERS_MAX = 200,
+  DEPTH_MAX = 8,
+  LEFT_OUT_MAX = 20
+};
 
-// Ends are one point within this [m]; drawings round to a thousandth of their unit at worst.
-static const double GAP = 1e-6;
+// Ends are one point within this, unless `join` is given; drawings round to a thousandth of their
+// unit at worst. Beyond FARTHEST an entity is left out [m].
+static const double GAP = 1e-6, FARTHEST = 1e6;
 
 typedef struct {
-  const char *at, *end; // what is left of the text
+  const char *at, *end; // remainder of the text
+  char separator;       // of lines
   int line;
   int code;
   char value[512]; // trimmed, cut
 } Reader;
 
-// The entity that is being read: its values by group code; repeated ones in lists.
+// Values that an entity may repeat, and their group codes.
+enum { X, Y, BULGE, KNOT, WEIGHT, LISTS };
+static const int list_code[LISTS] = {10, 20, 42, 40, 41};
+
+// An entity: its values by group code. A POLYLINE has the points of its VERTEX entities.
 typedef struct {
   char type[32], layer[256], line_type[64], name[256];
   double number[256];
-  GArray *x, *y, *bulge, *knot, *weight; // of double
-  bool mirrored;                         // drawn on the plane's back: extrusion towards -z
+  double low, high;    // of z
+  GArray *list[LISTS]; // of double
 } Entity;
 
+// Where an entity begins in the text.
 typedef struct {
-  GHashTable *layers;   // name -> GArray of SbCadPiece
-  GPtrArray *names;     // of the layers, in order of appearance
-  GHashTable *left_out; // type -> count
-  GArray *centre;       // of SbCadPiece: centre lines
-  guint pieces;
-  SbDxfBlocks *blocks;
-  double tolerance; // of curves, in the drawing's unit
-  bool in_polyline; // between POLYLINE and SEQEND
-  Entity polyline;
+  const char *at;
+  int line;
+} Item;
+
+// A block, or model space.
+typedef struct {
+  double base[2];
+  GArray *items; // of Item
+} Block;
+
+// x' = a x + b y + c, y' = d x + e y + f
+typedef struct {
+  double a, b, c, d, e, f;
+} Affine;
+
+typedef struct {
+  Reader text;          // at its start
+  Block *model;         // the section ENTITIES
+  GHashTable *blocks;   // name in lower case -> Block
+  GHashTable *hidden;   // name of a layer in lower case -> why it is not seen
+  GHashTable *layers;   // name in lower case -> GArray of SbCadPiece [m]
+  GPtrArray *names;     // of these layers, in order of appearance
+  GHashTable *left_out; // type and reason -> count
+  GArray *centre;       // of SbCadPiece [m]: centre lines
+  guint pieces, items, placed;
+  const char *unit; // static, or of the caller; NULL: not known
+  double scale;     // its length [m]
 } Drawing;
 
 // ---- Pairs ----
@@ -48,7 +88,7 @@ static bool read_line(Reader *reader, const char **text, size_t *length) {
   if (reader->at >= reader->end) {
     return false;
   }
-  const char *stop = memchr(reader->at, '\n', (size_t)(reader->end - reader->at));
+  const char *stop = memchr(reader->at, reader->separator, (size_t)(reader->end - reader->at));
   const char *next = stop != NULL ? stop + 1 : reader->end;
   stop = stop != NULL ? stop : reader->end;
   *text = reader->at;
@@ -97,9 +137,9 @@ static bool read_pair(Reader *reader, GError **error) {
   return true;
 }
 
-// Codes 70 to 79 are 16-bit integers.
+// Codes 60 to 79 are 16-bit integers.
 static bool value_number(const Reader *reader, double *out, GError **error) {
-  const double most = reader->code >= 70 && reader->code < 80 ? 32768 : 1e12;
+  const double most = reader->code >= 60 && reader->code < 80 ? 32768 : 1e12;
   if (sb_number_parse(out, reader->value) && fabs(*out) < most) {
     return true;
   }
@@ -109,76 +149,106 @@ static bool value_number(const Reader *reader, double *out, GError **error) {
 
 // ---- Entities ----
 
-static void entity_init(Entity *entity) {
-  memset(entity, 0, sizeof *entity);
-  GArray **const lists[] = {&entity->x, &entity->y, &entity->bulge, &entity->knot, &entity->weight};
-  for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
-    *lists[i] = g_array_new(FALSE, FALSE, sizeof(double));
-  }
-}
-
 static void entity_clear(Entity *entity) {
-  GArray *const lists[] = {entity->x, entity->y, entity->bulge, entity->knot, entity->weight};
-  for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
-    g_array_unref(lists[i]);
+  for (int i = 0; i < LISTS; i++) {
+    g_clear_pointer(&entity->list[i], g_array_unref);
   }
 }
 
 static void entity_begin(Entity *entity, const char *type) {
-  GArray *const lists[] = {entity->x, entity->y, entity->bulge, entity->knot, entity->weight};
-  for (size_t i = 0; i < G_N_ELEMENTS(lists); i++) {
-    g_array_set_size(lists[i], 0);
+  for (int i = 0; i < LISTS; i++) {
+    if (entity->list[i] == NULL) {
+      entity->list[i] = g_array_new(FALSE, FALSE, sizeof(double));
+    }
+    g_array_set_size(entity->list[i], 0);
   }
   memset(entity->number, 0, sizeof entity->number);
-  entity->mirrored = false;
+  entity->number[230] = 1;
+  entity->low = INFINITY;
+  entity->high = -INFINITY;
   g_strlcpy(entity->type, type, sizeof entity->type);
   g_strlcpy(entity->layer, "0", sizeof entity->layer);
   entity->line_type[0] = entity->name[0] = '\0';
 }
 
+static bool is_type(const Entity *entity, const char *type) {
+  return strcmp(entity->type, type) == 0;
+}
+
 // Takes a pair of an entity.
 static bool entity_take(Entity *entity, const Reader *reader, GError **error) {
   const int code = reader->code;
-  if (code == 8) {
-    g_strlcpy(entity->layer, reader->value, sizeof entity->layer);
-    return true;
-  }
-  if (code == 2) {
-    g_strlcpy(entity->name, reader->value, sizeof entity->name);
+  char *text = code == 8 ? entity->layer : code == 2 ? entity->name : NULL;
+  if (text != NULL) {
+    g_strlcpy(text, reader->value, sizeof entity->layer);
     return true;
   }
   if (code == 6) {
     g_strlcpy(entity->line_type, reader->value, sizeof entity->line_type);
     return true;
   }
-  const bool number = (code >= 10 && code < 60) || (code >= 70 && code < 80) || code == 230;
-  if (!number) {
+  double value;
+  if (!((code >= 10 && code < 80) || code == 210 || code == 220 || code == 230)) {
     return true;
   }
-  double value;
   if (!value_number(reader, &value, error)) {
     return false;
   }
-  entity->mirrored = entity->mirrored || (code == 230 && value < 0);
   entity->number[code] = value;
-  GArray *list = code == 10   ? entity->x
-                 : code == 20 ? entity->y
-                 : code == 40 ? entity->knot
-                 : code == 41 ? entity->weight
-                 : code == 42 ? entity->bulge
-                              : NULL;
-  if (list != NULL) {
+  if (code == 30 || (code == 31 && is_type(entity, "LINE"))) {
+    entity->low = fmin(entity->low, value);
+    entity->high = fmax(entity->high, value);
+  }
+  for (int i = 0; i < LISTS; i++) {
+    GArray *list = entity->list[i];
     // A bulge belongs to the point before it.
-    while (code == 42 && list->len + 1 < entity->x->len) {
+    while (code == list_code[i] && i == BULGE && list->len + 1 < entity->list[X]->len) {
       const double straight = 0;
       g_array_append_val(list, straight);
     }
-    if (list->len >= PIECES_MAX) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d: more than %d points",
-                  reader->line, PIECES_MAX);
+    if (code == list_code[i] && list->len < PIECES_MAX) {
+      g_array_append_val(list, value);
+    } else if (code == list_code[i]) {
+      sb_app_error_input(error, "line %d: more than %d points", reader->line, PIECES_MAX);
       return false;
     }
-    g_array_append_val(list, value);
+  }
+  return true;
+}
+
+// Reads an entity from its type on, a POLYLINE up to its last VERTEX. False at the end of the text,
+// or with an error.
+static bool read_entity(Entity *entity, Reader *reader, GError **error) {
+  if (!read_pair(reader, error)) {
+    return false;
+  }
+  entity_begin(entity, reader->value);
+  enum { FRAME = 16 }; // a VERTEX that is a control point of a spline, not of the line
+  double flags = 0;
+  guint before = 0;
+  bool in_vertex = false, vertex = true;
+  while (vertex) {
+    const Item here = {reader->at, reader->line};
+    const bool more = read_pair(reader, error);
+    if (*error != NULL || (more && reader->code != 0 && !entity_take(entity, reader, error))) {
+      return false;
+    }
+    if (more && reader->code != 0) {
+      continue;
+    }
+    const bool frame = in_vertex && ((int)entity->number[70] & FRAME) != 0;
+    vertex = more && is_type(entity, "POLYLINE") && strcmp(reader->value, "VERTEX") == 0;
+    flags = in_vertex ? flags : entity->number[70];
+    for (int i = 0; (frame || (vertex && !in_vertex)) && i <= BULGE; i++) {
+      g_array_set_size(entity->list[i], MIN(entity->list[i]->len, before));
+    }
+    entity->number[70] = vertex ? 0 : flags;
+    before = entity->list[X]->len;
+    in_vertex = vertex;
+    if (!vertex) {
+      reader->at = here.at;
+      reader->line = here.line;
+    }
   }
   return true;
 }
@@ -187,350 +257,477 @@ static double at(const GArray *list, guint i) {
   return i < list->len ? g_array_index(list, double, i) : 0;
 }
 
-// ---- Curves ----
+// ---- Curves, placed [m] ----
+
+static void map(const Affine *way, double x, double y, double xy[2]) {
+  xy[0] = way->a * x + way->b * y + way->c;
+  xy[1] = way->d * x + way->e * y + way->f;
+}
+
+// First `in`, then `out`.
+static Affine after(const Affine *out, const Affine *in) {
+  return (Affine){
+      out->a * in->a + out->b * in->d,          out->a * in->b + out->b * in->e,
+      out->a * in->c + out->b * in->f + out->c, out->d * in->a + out->e * in->d,
+      out->d * in->b + out->e * in->e,          out->d * in->c + out->e * in->f + out->f};
+}
 
 typedef struct {
-  double centre[2], major[2], ratio, start, end;
+  const Affine *way;
+  SbArc arc;
+} PlacedArc;
+
+static void arc_at(const void *curve, double t, double xy[2]) {
+  const PlacedArc *placed = curve;
+  double place[2];
+  sb_arc_place(&placed->arc, t, place);
+  map(placed->way, place[0], place[1], xy);
+}
+
+// Adds a straight line or an arc; an arc is one if the map preserves circles, else is followed.
+static bool add_bulge(GArray *out, const Affine *way, const SbCadPiece *piece) {
+  double from[2], to[2];
+  map(way, piece->x0, piece->y0, from);
+  map(way, piece->x1, piece->y1, to);
+  const double u = hypot(way->a, way->d), v = hypot(way->b, way->e);
+  const bool even =
+      fabs(u - v) <= 1e-9 * (u + v) && fabs(way->a * way->b + way->d * way->e) <= 1e-9 * u * v;
+  if (piece->bulge == 0 || even) {
+    const bool turned = way->a * way->e - way->b * way->d < 0;
+    const SbCadPiece placed = {from[0], from[1], to[0], to[1],
+                               turned ? -piece->bulge : piece->bulge};
+    g_array_append_val(out, placed);
+    return true;
+  }
+  const double begin[2] = {piece->x0, piece->y0}, end[2] = {piece->x1, piece->y1};
+  const PlacedArc arc = {way, sb_arc_of(begin, end, piece->bulge)};
+  return sb_cad_curve(out, arc_at, &arc, 2, SB_CAD_TOLERANCE);
+}
+
+typedef struct {
+  const Affine *way;
+  double centre[2], major[2], minor[2], start, end;
 } Ellipse;
 
 static void ellipse_at(const void *curve, double t, double xy[2]) {
   const Ellipse *e = curve;
-  const double angle = e->start + t * (e->end - e->start);
-  const double c = cos(angle), s = e->ratio * sin(angle);
-  xy[0] = e->centre[0] + c * e->major[0] - s * e->major[1];
-  xy[1] = e->centre[1] + c * e->major[1] + s * e->major[0];
+  const double angle = e->start + t * (e->end - e->start), c = cos(angle), s = sin(angle);
+  map(e->way, e->centre[0] + c * e->major[0] + s * e->minor[0],
+      e->centre[1] + c * e->major[1] + s * e->minor[1], xy);
+}
+
+// The minor axis is the extrusion direction times the major axis.
+static bool add_ellipse(GArray *out, const Affine *way, const Entity *entity) {
+  const double *n = entity->number, up = n[230] < 0 ? -n[40] : n[40];
+  const double end = n[42] > n[41] ? n[42] : n[42] + 2 * M_PI;
+  const Ellipse ellipse = {way, {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]}, n[41],
+                           end};
+  return n[40] > 0 && end - n[41] <= 2 * M_PI + 1e-6 &&
+         sb_cad_curve(out, ellipse_at, &ellipse, 4, SB_CAD_TOLERANCE);
+}
+
+// Points of a circle at two angles, in halves of the arc between them.
+static bool add_circle(GArray *out, const Affine *way, const double *n, double start, double turn) {
+  bool good = n[40] > 0;
+  for (int i = 0; good && i < 2; i++) {
+    const double a = start + i * turn / 2, b = a + turn / 2;
+    const SbCadPiece half = {n[10] + n[40] * cos(a), n[20] + n[40] * sin(a), n[10] + n[40] * cos(b),
+                             n[20] + n[40] * sin(b), tan(turn / 8)};
+    good = add_bulge(out, way, &half);
+  }
+  return good;
 }
 
 typedef struct {
-  const double *x, *y, *weight, *knot; // weight: NULL, all 1
-  int count, degree;
+  const Affine *way;
+  const Entity *entity;
+  int degree, span; // from knot `span` to the next
 } Spline;
 
 // De Boor's algorithm in homogeneous coordinates.
 static void spline_at(const void *curve, double t, double xy[2]) {
   const Spline *s = curve;
-  const int p = s->degree;
-  const double u = s->knot[p] + t * (s->knot[s->count] - s->knot[p]);
-  int k = p;
-  while (k + 1 < s->count && s->knot[k + 1] <= u) {
-    k++;
-  }
+  GArray *const *list = s->entity->list;
+  const bool weighted = list[WEIGHT]->len == list[X]->len;
+  const double *knot = (const double *)(void *)list[KNOT]->data;
+  const int p = s->degree, k = s->span;
+  const double u = (1 - t) * knot[k] + t * knot[k + 1];
   double d[DEGREE_MAX + 1][3];
   for (int j = 0; j <= p; j++) {
-    const int i = k - p + j;
-    const double w = s->weight != NULL ? s->weight[i] : 1;
-    d[j][0] = w * s->x[i];
-    d[j][1] = w * s->y[i];
-    d[j][2] = w;
+    const guint i = (guint)(k - p + j);
+    d[j][2] = weighted ? at(list[WEIGHT], i) : 1;
+    d[j][0] = d[j][2] * at(list[X], i);
+    d[j][1] = d[j][2] * at(list[Y], i);
   }
   for (int r = 1; r <= p; r++) {
     for (int j = p; j >= r; j--) {
-      const double low = s->knot[j + k - p], high = s->knot[j + 1 + k - r];
+      const double low = knot[j + k - p], high = knot[j + 1 + k - r];
       const double a = high > low ? (u - low) / (high - low) : 0;
       for (int c = 0; c < 3; c++) {
         d[j][c] = (1 - a) * d[j - 1][c] + a * d[j][c];
       }
     }
   }
-  xy[0] = d[p][0] / d[p][2];
-  xy[1] = d[p][1] / d[p][2];
+  map(s->way, d[p][0] / d[p][2], d[p][1] / d[p][2], xy);
 }
 
-static bool add_spline(GArray *pieces, const Entity *entity, double tolerance) {
-  const int degree = (int)entity->number[71], count = (int)entity->x->len;
-  const int knots = (int)entity->knot->len;
-  if (degree < 1 || degree > DEGREE_MAX || count <= degree || count > CONTROL_MAX ||
-      (int)entity->y->len != count || knots != count + degree + 1) {
-    return false;
+// Each span between knots by itself: the curve may have kinks there.
+static bool add_spline(GArray *out, const Affine *way, const Entity *entity) {
+  GArray *const *list = entity->list;
+  const int degree = (int)entity->number[71], count = (int)list[X]->len;
+  bool good = degree >= 1 && degree <= DEGREE_MAX && count > degree && count <= CONTROL_MAX &&
+              (int)list[Y]->len == count && (int)list[KNOT]->len == count + degree + 1;
+  for (guint i = 1; good && i < list[KNOT]->len; i++) {
+    good = at(list[KNOT], i) >= at(list[KNOT], i - 1);
   }
-  for (int i = 1; i < knots; i++) {
-    if (at(entity->knot, (guint)i) < at(entity->knot, (guint)i - 1)) {
-      return false;
-    }
+  for (int k = degree; good && k < count; k++) {
+    const Spline spline = {way, entity, degree, k};
+    good = at(list[KNOT], (guint)k + 1) == at(list[KNOT], (guint)k) ||
+           sb_cad_curve(out, spline_at, &spline, 1, SB_CAD_TOLERANCE);
   }
-  const Spline spline = {
-      (const double *)(void *)entity->x->data,
-      (const double *)(void *)entity->y->data,
-      (int)entity->weight->len == count ? (const double *)(void *)entity->weight->data : NULL,
-      (const double *)(void *)entity->knot->data,
-      count,
-      degree};
-  return sb_cad_curve(pieces, spline_at, &spline, count - degree, tolerance);
+  return good;
 }
 
-static bool add_points(GArray *pieces, const Entity *entity, bool closed) {
-  const guint count = entity->x->len;
-  for (guint i = 0; i + !closed < count; i++) {
+static bool add_points(GArray *out, const Affine *way, const Entity *entity) {
+  enum { CLOSED = 1, MESHES = 16 | 64 };
+  const int flags = (int)entity->number[70];
+  const guint count = entity->list[X]->len;
+  bool good = entity->list[Y]->len == count && count > 1 &&
+              (is_type(entity, "LWPOLYLINE") || (flags & MESHES) == 0);
+  for (guint i = 0; good && i + !(flags & CLOSED) < count; i++) {
     const guint next = (i + 1) % count;
-    const SbCadPiece piece = {at(entity->x, i), at(entity->y, i), at(entity->x, next),
-                              at(entity->y, next), at(entity->bulge, i)};
-    if (piece.x0 != piece.x1 || piece.y0 != piece.y1) {
-      g_array_append_val(pieces, piece);
-    }
+    const SbCadPiece piece = {at(entity->list[X], i), at(entity->list[Y], i),
+                              at(entity->list[X], next), at(entity->list[Y], next),
+                              at(entity->list[BULGE], i)};
+    good = (piece.x0 == piece.x1 && piece.y0 == piece.y1) || add_bulge(out, way, &piece);
   }
-  return entity->y->len == count && count > 1;
+  return good;
 }
 
-static bool add_arc(GArray *pieces, const Entity *entity, double start, double turn,
-                    double tolerance) {
+// Adds the pieces of an entity. False where it is none that we read.
+static bool add_entity(GArray *out, const Affine *way, const Entity *entity) {
   const double *n = entity->number;
-  const Ellipse circle = {{n[10], n[20]}, {n[40], 0}, 1, start, start + turn};
-  return n[40] > 0 && sb_cad_curve(pieces, ellipse_at, &circle, turn > M_PI ? 2 : 1, tolerance);
-}
-
-// The pieces of one entity in the drawing's unit. False where it is none that we read.
-static bool add_entity(GArray *pieces, const Entity *entity, double tolerance) {
-  const double *n = entity->number;
-  const char *type = entity->type;
-  if (strcmp(type, "LINE") == 0) {
-    const SbCadPiece piece = {n[10], n[20], n[11], n[21], 0};
-    g_array_append_val(pieces, piece);
-    return true;
-  }
-  if (strcmp(type, "CIRCLE") == 0) {
-    return add_arc(pieces, entity, 0, 2 * M_PI, tolerance);
-  }
-  if (strcmp(type, "ARC") == 0) {
+  bool good = false;
+  if (is_type(entity, "LINE")) {
+    good = add_bulge(out, way, &(SbCadPiece){n[10], n[20], n[11], n[21], 0});
+  } else if (is_type(entity, "CIRCLE")) {
+    good = add_circle(out, way, n, 0, 2 * M_PI);
+  } else if (is_type(entity, "ARC")) {
     const double turn = fmod(n[51] - n[50], 360);
-    return add_arc(pieces, entity, n[50] * M_PI / 180, (turn > 0 ? turn : turn + 360) * M_PI / 180,
-                   tolerance);
+    good = add_circle(out, way, n, n[50] * M_PI / 180, (turn > 0 ? turn : turn + 360) * M_PI / 180);
+  } else if (is_type(entity, "ELLIPSE")) {
+    good = add_ellipse(out, way, entity);
+  } else if (is_type(entity, "SPLINE")) {
+    good = add_spline(out, way, entity);
+  } else if (is_type(entity, "LWPOLYLINE") || is_type(entity, "POLYLINE")) {
+    good = add_points(out, way, entity);
   }
-  if (strcmp(type, "ELLIPSE") == 0) {
-    const double end = n[42] > n[41] ? n[42] : n[42] + 2 * M_PI;
-    const Ellipse ellipse = {{n[10], n[20]}, {n[11], n[21]}, n[40], n[41], end};
-    return n[40] > 0 && end - n[41] <= 2 * M_PI + 1e-6 &&
-           sb_cad_curve(pieces, ellipse_at, &ellipse, 4, tolerance);
+  for (guint i = 0; good && i < out->len; i++) {
+    const SbCadPiece *p = &g_array_index(out, SbCadPiece, i);
+    good = fmax(fmax(fabs(p->x0), fabs(p->y0)), fmax(fabs(p->x1), fabs(p->y1))) < FARTHEST;
   }
-  if (strcmp(type, "SPLINE") == 0) {
-    return add_spline(pieces, entity, tolerance);
-  }
-  if (strcmp(type, "LWPOLYLINE") == 0 || strcmp(type, "POLYLINE") == 0) {
-    return add_points(pieces, entity, ((int)n[70] & 1) != 0);
-  }
-  return false;
+  return good;
 }
 
-// ---- The drawing ----
+// ---- Placing ----
 
 static bool is_centre_line(const Entity *entity) {
   g_autofree char *layer = g_ascii_strdown(entity->layer, -1);
   g_autofree char *type = g_ascii_strdown(entity->line_type, -1);
-  return strcmp(entity->type, "LINE") == 0 &&
+  return is_type(entity, "LINE") &&
          (g_str_has_prefix(type, "center") || g_str_has_prefix(layer, "axis") ||
           g_str_has_prefix(layer, "cent"));
 }
 
-static void count_left_out(void *data, const char *type) {
-  const Drawing *drawing = data;
-  const guint count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, type));
-  if (count > 0 || g_hash_table_size(drawing->left_out) < 20) {
-    g_hash_table_insert(drawing->left_out, g_strdup(type), GUINT_TO_POINTER(count + 1));
+// Counts an entity that was not read, with the reason ("" or " in paper space").
+static void count_left_out(Drawing *drawing, const char *type, const char *reason) {
+  char *key = g_strconcat(type, reason, NULL);
+  guint count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, key));
+  if (count == 0 && g_hash_table_size(drawing->left_out) >= LEFT_OUT_MAX) {
+    g_free(key);
+    key = g_strdup("other entities");
+    count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, key));
   }
+  g_hash_table_insert(drawing->left_out, key, GUINT_TO_POINTER(count + 1));
 }
 
-static bool add_pieces(void *data, const char *name, bool centre, const GArray *pieces,
+static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GArray *pieces,
                        GError **error) {
-  Drawing *drawing = data;
   drawing->pieces += pieces->len;
-  if (centre) {
-    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
-  } else {
-    GArray *layer = g_hash_table_lookup(drawing->layers, name);
-    if (layer == NULL) {
-      layer = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-      g_hash_table_insert(drawing->layers, g_strdup(name), layer);
-      g_ptr_array_add(drawing->names, g_strdup(name));
-    }
-    g_array_append_vals(layer, pieces->data, pieces->len);
+  g_autofree char *key = g_ascii_strdown(name, -1);
+  GArray *layer = centre ? drawing->centre : g_hash_table_lookup(drawing->layers, key);
+  if (layer == NULL) {
+    layer = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+    g_hash_table_insert(drawing->layers, g_steal_pointer(&key), layer);
+    g_ptr_array_add(drawing->names, g_strdup(name));
   }
+  g_array_append_vals(layer, pieces->data, pieces->len);
   if (drawing->pieces > PIECES_MAX || drawing->names->len > LAYERS_MAX) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "more than %d pieces or %d layers: export the seal's parts alone", PIECES_MAX,
-                LAYERS_MAX);
+    sb_app_error_input(error, "more than %d pieces or %d layers: export the seal's parts alone",
+                       PIECES_MAX, LAYERS_MAX);
     return false;
   }
   return true;
 }
 
-// What is not given is 1 (41, 42, 70, 71): the lists tell whether a scale was.
-static bool add_insert(Drawing *drawing, const Entity *entity, GError **error) {
+// Returns why an entity on `layer` is not seen or is not in the plane; NULL: it is drawn.
+static char *why_not(const Drawing *drawing, const Entity *entity, const char *layer) {
   const double *n = entity->number;
-  return sb_dxf_blocks_insert(drawing->blocks,
-                              &(SbDxfInsert){.name = entity->name,
-                                             .layer = entity->layer,
-                                             .at = {n[10], n[20]},
-                                             .scale = {entity->weight->len > 0 ? n[41] : 1,
-                                                       entity->bulge->len > 0 ? n[42] : 1},
-                                             .turn = n[50],
-                                             .spacing = {n[44], n[45]},
-                                             .columns = MAX((int)n[70], 1),
-                                             .rows = MAX((int)n[71], 1),
-                                             .mirrored = entity->mirrored},
-                              error);
+  g_autofree char *key = g_ascii_strdown(layer, -1);
+  const char *hidden = g_hash_table_lookup(drawing->hidden, key);
+  const bool insert = is_type(entity, "INSERT");
+  if (n[67] == 1 || n[60] == 1) {
+    return g_strdup(n[67] == 1 ? " in paper space" : " that is invisible");
+  }
+  // On a layer that is off, an insert still shows what its block has on other layers.
+  if (hidden != NULL && (!insert || strcmp(hidden, "frozen") == 0)) {
+    return g_strdup_printf(" on layer '%s', which is %s", layer, hidden);
+  }
+  const double rise = is_type(entity, "ELLIPSE") ? fabs(n[31]) : entity->high - entity->low;
+  const bool tilted = hypot(n[210], n[220]) > 1e-6 * fabs(n[230]);
+  const bool turns = !is_type(entity, "LINE") && !is_type(entity, "SPLINE");
+  return (tilted && turns) || rise * drawing->scale > GAP ? g_strdup(" out of the drawing's plane")
+                                                          : NULL;
 }
 
-static bool drawing_add(Drawing *drawing, const Entity *entity, GError **error) {
-  if (entity->type[0] == '\0') {
+static bool place_block(Drawing *drawing, const Block *block, const Affine *way, const char *layer,
+                        int depth, GError **error);
+
+// Places the rows and columns of an INSERT. What is not given is 1 (41, 42, 70, 71).
+static bool place_insert(Drawing *drawing, const Entity *entity, const Affine *way,
+                         const char *layer, int depth, GError **error) {
+  const double *n = entity->number, turn = n[50] * M_PI / 180, c = cos(turn), s = sin(turn);
+  const double sx = entity->list[WEIGHT]->len > 0 ? n[41] : 1;
+  const double sy = entity->list[BULGE]->len > 0 ? n[42] : 1;
+  g_autofree char *key = g_ascii_strdown(entity->name, -1);
+  const Block *block = g_hash_table_lookup(drawing->blocks, key);
+  if (block == NULL || sx == 0 || sy == 0) {
+    count_left_out(drawing, "INSERT", "");
     return true;
   }
-  const bool inside = sb_dxf_blocks_inside(drawing->blocks);
-  if (strcmp(entity->type, "INSERT") == 0) {
-    return add_insert(drawing, entity, error);
+  bool good = depth < DEPTH_MAX;
+  if (!good) {
+    sb_app_error_input(error, "its blocks are nested more than %d deep, or contain themselves",
+                       DEPTH_MAX);
+  }
+  const int columns = MAX((int)n[70], 1), count = MAX((int)n[71], 1) * columns;
+  for (int i = 0; good && i < count; i++) {
+    const double x = n[44] * (i % columns) - sx * block->base[0];
+    const double y = n[45] * (i / columns) - sy * block->base[1];
+    const Affine own = {c * sx, -s * sy, c * x - s * y + n[10],
+                        s * sx, c * sy,  s * x + c * y + n[20]};
+    const Affine whole = after(way, &own);
+    good = place_block(drawing, block, &whole, layer, depth + 1, error);
+  }
+  return good;
+}
+
+static bool place_entity(Drawing *drawing, const Entity *entity, const Affine *outer,
+                         const char *layer, int depth, GError **error) {
+  enum { SPACE = 8 }; // a 3D polyline
+  const bool world = is_type(entity, "LINE") || is_type(entity, "SPLINE") ||
+                     is_type(entity, "ELLIPSE") ||
+                     (is_type(entity, "POLYLINE") && ((int)entity->number[70] & SPACE) != 0);
+  const Affine back = {-1, 0, 0, 0, 1, 0};
+  const Affine way = world || entity->number[230] >= 0 ? *outer : after(outer, &back);
+  // Layer 0 of a block is the layer of its insert.
+  const char *on = depth > 0 && strcmp(entity->layer, "0") == 0 ? layer : entity->layer;
+  g_autofree char *reason = why_not(drawing, entity, on);
+  if (reason == NULL && is_type(entity, "INSERT")) {
+    return place_insert(drawing, entity, &way, on, depth, error);
   }
   g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  // An insert may enlarge a block.
-  if (!add_entity(pieces, entity, (inside ? 0.1 : 1) * drawing->tolerance)) {
-    if (inside) {
-      sb_dxf_blocks_left_out(drawing->blocks, entity->type);
+  if (reason != NULL || !add_entity(pieces, &way, entity)) {
+    const bool fit = is_type(entity, "SPLINE") && entity->list[X]->len == 0;
+    count_left_out(drawing, entity->type,
+                   reason != NULL ? reason
+                   : fit          ? " with fit points only"
+                                  : "");
+    return true;
+  }
+  return add_pieces(drawing, on, is_centre_line(entity), pieces, error);
+}
+
+// Places all entities of a block; `layer` of its INSERT.
+static bool place_block(Drawing *drawing, const Block *block, const Affine *way, const char *layer,
+                        int depth, GError **error) {
+  Entity entity = {.type = ""};
+  bool good = true;
+  drawing->placed++; // an empty block as well
+  for (guint i = 0; good && i < block->items->len; i++) {
+    const Item *item = &g_array_index(block->items, Item, i);
+    Reader reader = drawing->text;
+    reader.at = item->at;
+    reader.line = item->line;
+    good = read_entity(&entity, &reader, error);
+    drawing->placed += depth > 0;
+    if (good && drawing->placed > PLACED_MAX) {
+      sb_app_error_input(error,
+                         "its blocks place more than %d entities: export the seal's parts alone",
+                         PLACED_MAX);
+      good = false;
+    }
+    good = good && place_entity(drawing, &entity, way, layer, depth, error);
+  }
+  entity_clear(&entity);
+  return good;
+}
+
+// ---- The file ----
+
+static void block_free(gpointer data) {
+  Block *block = data;
+  g_array_unref(block->items);
+  g_free(block);
+}
+
+static Block *block_new(void) {
+  Block *block = g_new0(Block, 1);
+  block->items = g_array_new(FALSE, FALSE, sizeof(Item));
+  return block;
+}
+
+// Names of $INSUNITS for udunits-2, from 1. The inch of the US survey (22), which udunits-2 does
+// not know, is longer than the inch by 2e-6.
+static const char *const units[] = {NULL,
+                                    "inch",
+                                    "foot",
+                                    "mile",
+                                    "mm",
+                                    "cm",
+                                    "m",
+                                    "km",
+                                    "uin",
+                                    "mil",
+                                    "yard",
+                                    "angstrom",
+                                    "nm",
+                                    "um",
+                                    "dm",
+                                    "dam",
+                                    "hm",
+                                    "Gm",
+                                    "astronomical_unit",
+                                    "light_year",
+                                    "parsec",
+                                    "US_survey_foot",
+                                    "inch",
+                                    "US_survey_yard",
+                                    "US_survey_mile"};
+
+// Reads a record of a section at `item`: a layer, the begin or end of a block, an entity.
+static bool read_record(Drawing *drawing, const char *section, const char *type, const Item *item,
+                        Block **open, GError **error) {
+  const bool blocks = strcmp(section, "BLOCKS") == 0;
+  const bool layer = strcmp(section, "TABLES") == 0 && strcmp(type, "LAYER") == 0;
+  Entity entity = {.type = ""};
+  bool good = true;
+  if (layer || (blocks && strcmp(type, "BLOCK") == 0)) {
+    Reader reader = drawing->text;
+    reader.at = item->at;
+    reader.line = item->line;
+    good = read_entity(&entity, &reader, error);
+    char *key = g_ascii_strdown(entity.name, -1);
+    if (layer) {
+      const bool frozen = ((int)entity.number[70] & 1) != 0;
+      const char *state = frozen ? "frozen" : entity.number[62] < 0 ? "off" : NULL;
+      g_hash_table_replace(drawing->hidden, key, (char *)state);
     } else {
-      count_left_out(drawing, entity->type);
+      *open = block_new();
+      (*open)->base[0] = entity.number[10];
+      (*open)->base[1] = entity.number[20];
+      g_hash_table_replace(drawing->blocks, key, *open);
     }
-    return true;
+  } else if (blocks && strcmp(type, "ENDBLK") == 0) {
+    *open = NULL;
+  } else if (*open != NULL && strcmp(type, "VERTEX") != 0 && strcmp(type, "SEQEND") != 0) {
+    g_array_append_vals((*open)->items, item, 1);
   }
-  for (guint i = 0; entity->mirrored && strcmp(entity->type, "LINE") != 0 && i < pieces->len; i++) {
-    SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    *piece = (SbCadPiece){-piece->x0, piece->y0, -piece->x1, piece->y1, -piece->bulge};
+  entity_clear(&entity);
+  if (good && drawing->items++ > ENTITIES_MAX) {
+    sb_app_error_input(error, "more than %d entities: export the seal's parts alone", ENTITIES_MAX);
+    good = false;
   }
-  const bool centre = is_centre_line(entity);
-  return inside ? sb_dxf_blocks_pieces(drawing->blocks, entity->layer, centre, pieces, error)
-                : add_pieces(drawing, entity->layer, centre, pieces, error);
+  return good;
 }
 
-// An entity has ended. A POLYLINE takes the points of the VERTEX entities that follow it.
-static bool drawing_end_entity(Drawing *drawing, const Entity *entity, GError **error) {
-  Entity *polyline = &drawing->polyline;
-  if (strcmp(entity->type, "BLOCK") == 0) {
-    sb_dxf_blocks_begin(drawing->blocks, entity->name, entity->number[10], entity->number[20]);
-    return true;
-  }
-  if (strcmp(entity->type, "ENDBLK") == 0) {
-    sb_dxf_blocks_end(drawing->blocks);
-    return true;
-  }
-  if (strcmp(entity->type, "POLYLINE") == 0) {
-    entity_begin(polyline, "POLYLINE");
-    g_strlcpy(polyline->layer, entity->layer, sizeof polyline->layer);
-    polyline->number[70] = entity->number[70];
-    polyline->mirrored = entity->mirrored;
-    drawing->in_polyline = true;
-    return true;
-  }
-  if (drawing->in_polyline && strcmp(entity->type, "VERTEX") == 0) {
-    if (polyline->x->len < PIECES_MAX) {
-      g_array_append_val(polyline->x, entity->number[10]);
-      g_array_append_val(polyline->y, entity->number[20]);
-      g_array_append_val(polyline->bulge, entity->number[42]);
-    }
-    return true;
-  }
-  if (drawing->in_polyline) {
-    drawing->in_polyline = false;
-    return drawing_add(drawing, polyline, error) &&
-           (strcmp(entity->type, "SEQEND") == 0 || drawing_add(drawing, entity, error));
-  }
-  // Ends the attributes of an insert.
-  return strcmp(entity->type, "SEQEND") == 0 || drawing_add(drawing, entity, error);
-}
-
-// Metres to the unit; 0 with an error where it is no length.
-static double scale_of(const char *unit, GError **error) {
-  g_autofree char *one = g_strdup_printf("1 %s", unit);
-  double scale = 0;
-  return sb_quantity_parse(&scale, one, "m", "mm", error) ? scale : 0;
-}
-
-// Reads all pairs. *unit, NULL where nobody chose it, becomes that of $INSUNITS (NULL: not given or
-// none we know); it comes before the entities.
-static bool read_drawing(Drawing *drawing, Reader *reader, const char **unit, GError **error) {
-  static const struct {
-    int code;
-    const char *unit;
-  } units[] = {{1, "inch"}, {2, "foot"}, {4, "mm"},  {5, "cm"}, {6, "m"},
-               {8, "uin"},  {9, "mil"},  {13, "um"}, {0, NULL}};
-  GError *problem = NULL;
-  Entity entity;
-  entity_init(&entity);
+// Finds the blocks, layers and entities, and the unit unless the caller chose one.
+static bool read_file(Drawing *drawing, GError **error) {
+  Reader reader = drawing->text;
   char section[32] = "", variable[32] = "";
-  const bool chosen = *unit != NULL;
+  Block *open = NULL; // that entities are added to
   bool named = false, sections = false, good = true;
-  while (good && read_pair(reader, &problem)) {
-    const char *value = reader->value;
-    if (reader->code == 0) {
-      good = drawing_end_entity(drawing, &entity, &problem);
-      entity_begin(&entity, "");
+  while (good) {
+    const Item item = {reader.at, reader.line};
+    if (!read_pair(&reader, error)) {
+      break;
+    }
+    const char *value = reader.value;
+    if (reader.code == 0) {
       named = strcmp(value, "SECTION") == 0;
       sections = sections || named;
-      if (strcmp(value, "ENDSEC") == 0) {
+      if (named || strcmp(value, "ENDSEC") == 0) {
         section[0] = '\0';
-        sb_dxf_blocks_end(drawing->blocks);
-      } else if (!named && (strcmp(section, "ENTITIES") == 0 || strcmp(section, "BLOCKS") == 0)) {
-        entity_begin(&entity, value);
+        open = NULL;
+      } else if (section[0] != '\0') {
+        good = read_record(drawing, section, value, &item, &open, error);
       }
-    } else if (named && reader->code == 2) {
+    } else if (named && reader.code == 2) {
       g_strlcpy(section, value, sizeof section);
+      open = strcmp(section, "ENTITIES") == 0 ? drawing->model : NULL;
       named = false;
-      const double scale = scale_of(*unit != NULL ? *unit : "mm", &problem);
-      good = scale > 0;
-      drawing->tolerance = SB_CAD_TOLERANCE / scale;
-    } else if (entity.type[0] != '\0') {
-      good = entity_take(&entity, reader, &problem);
-    } else if (strcmp(section, "HEADER") == 0 && reader->code == 9) {
+    } else if (strcmp(section, "HEADER") == 0 && reader.code == 9) {
       g_strlcpy(variable, value, sizeof variable);
-    } else if (strcmp(variable, "$INSUNITS") == 0 && reader->code == 70) {
+    } else if (strcmp(variable, "$INSUNITS") == 0 && reader.code == 70) {
       double number = 0;
-      good = value_number(reader, &number, &problem);
-      for (size_t i = 0; good && units[i].unit != NULL; i++) {
-        *unit = !chosen && units[i].code == (int)number ? units[i].unit : *unit;
+      good = value_number(&reader, &number, error);
+      if (good && drawing->unit == NULL && number >= 1 && number < G_N_ELEMENTS(units)) {
+        drawing->unit = units[(int)number];
       }
       variable[0] = '\0';
     }
   }
-  good = good && problem == NULL && drawing_end_entity(drawing, &entity, &problem);
-  sb_dxf_blocks_end(drawing->blocks);
-  const SbDxfSink sink = {add_pieces, count_left_out, drawing};
-  good = good && sb_dxf_blocks_place(drawing->blocks, drawing->tolerance, &sink, &problem);
-  entity_clear(&entity);
-  if (problem == NULL && !sections) {
-    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section");
+  if (*error == NULL && !sections) {
+    sb_app_error_input(error, "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section");
   }
-  if (problem != NULL) {
-    g_propagate_error(error, problem);
-  }
-  return problem == NULL && good;
+  return *error == NULL;
 }
 
-// The line that bodies are revolved about: a point and a direction.
+// The line that bodies are revolved about: a point [m] and a direction.
 typedef struct {
   double x, y, c, s;
 } Axis;
 
-static Axis find_axis(SbCad *cad, const Drawing *drawing, const char *wish) {
-  if (wish != NULL && strcmp(wish, "y") == 0) {
-    cad->axis = g_strdup("the line x = 0");
-    // Turned clockwise, so that x runs along the drawing's y.
-    return (Axis){0, 0, 0, 1};
-  }
-  double longest = 0;
-  const SbCadPiece *line = NULL;
-  for (guint i = 0; wish == NULL && i < drawing->centre->len; i++) {
-    const SbCadPiece *piece = &g_array_index(drawing->centre, SbCadPiece, i);
-    const double length = hypot(piece->x1 - piece->x0, piece->y1 - piece->y0);
+static Axis find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
+  double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
+  const bool found = choices->axis == NULL && choices->through == NULL && !choices->section;
+  for (guint i = 0; found && i < drawing->centre->len; i++) {
+    const SbCadPiece *line = &g_array_index(drawing->centre, SbCadPiece, i);
+    const double dx = line->x1 - line->x0, dy = line->y1 - line->y0, length = hypot(dx, dy);
     if (length > longest) {
       longest = length;
-      line = piece;
+      const double c = dx / length, s = dy / length;
+      const double sign = c < -1e-9 || (fabs(c) <= 1e-9 && s < 0) ? -1 : 1;
+      direction[0] = sign * c;
+      direction[1] = sign * s;
+      through[0] = line->x0;
+      through[1] = line->y0;
     }
   }
-  if (line == NULL) {
-    cad->axis = g_strdup("the line y = 0");
-    return (Axis){0, 0, 1, 0};
+  if (!choices->section && choices->through != NULL) {
+    memcpy(through, choices->through, sizeof through);
   }
-  cad->axis = g_strdup("the longest centre line");
-  const double c = (line->x1 - line->x0) / longest, s = (line->y1 - line->y0) / longest;
-  const double sign = c < -1e-9 || (fabs(c) <= 1e-9 && s < 0) ? -1 : 1;
+  if (!choices->section && choices->axis != NULL) {
+    memcpy(direction, choices->axis, sizeof direction);
+  }
   // The point of the line that is nearest to the drawing's origin is x = 0.
-  const double along = line->x0 * c + line->y0 * s;
-  return (Axis){line->x0 - along * c, line->y0 - along * s, sign * c, sign * s};
+  const double length = hypot(direction[0], direction[1]);
+  const double c = direction[0] / length, s = direction[1] / length;
+  const double along = through[0] * c + through[1] * s;
+  const double point[3] = {through[0] - along * c, through[1] - along * s, 0};
+  g_autofree char *text = sb_cad_axis_text(point, direction);
+  cad->axis = g_strconcat(text, longest > 0 ? " (the longest centre line)" : "", NULL);
+  return (Axis){point[0], point[1], c, s};
 }
 
 static gint by_text(gconstpointer a, gconstpointer b) {
@@ -552,17 +749,23 @@ static void left_out(SbCad *cad, const Drawing *drawing) {
     g_string_append_printf(all, "%s%s", i > 0 ? ", " : "", (const char *)texts->pdata[i]);
   }
   if (texts->len > 0) {
-    g_ptr_array_add(cad->warnings, g_strdup(all->str));
+    sb_cad_note(cad, "%s", all->str);
   }
+}
+
+// The pieces of a layer of drawing->names.
+static GArray *layer_of(const Drawing *drawing, guint k) {
+  g_autofree char *key = g_ascii_strdown(drawing->names->pdata[k], -1);
+  return g_hash_table_lookup(drawing->layers, key);
 }
 
 // Moves a drawing's pieces to one side of the line y = 0, and away from it.
 static void lift(const Drawing *drawing) {
-  const double away = 1; // in the drawing's unit
+  const double away = 1e-3; // m
   double low = INFINITY;
   for (int pass = 0; pass < 2; pass++) {
     for (guint k = 0; k < drawing->names->len; k++) {
-      GArray *pieces = g_hash_table_lookup(drawing->layers, drawing->names->pdata[k]);
+      GArray *pieces = layer_of(drawing, k);
       for (guint i = 0; i < pieces->len; i++) {
         SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
         if (pass == 0) {
@@ -578,78 +781,93 @@ static void lift(const Drawing *drawing) {
   }
 }
 
-static void make_bodies(SbCad *cad, const Drawing *drawing, double scale,
-                        const SbCadChoices *choices) {
+static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
   if (choices->section) {
     lift(drawing);
   }
-  const Axis axis = find_axis(cad, drawing, choices->section ? "x" : choices->axis);
+  const Axis axis = find_axis(cad, drawing, choices);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
-    GArray *pieces = g_hash_table_lookup(drawing->layers, name);
+    GArray *pieces = layer_of(drawing, k);
     for (guint i = 0; i < pieces->len; i++) {
       SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
       const double x0 = p->x0 - axis.x, y0 = p->y0 - axis.y;
       const double x1 = p->x1 - axis.x, y1 = p->y1 - axis.y;
-      *p = (SbCadPiece){scale * (x0 * axis.c + y0 * axis.s), scale * (y0 * axis.c - x0 * axis.s),
-                        scale * (x1 * axis.c + y1 * axis.s), scale * (y1 * axis.c - x1 * axis.s),
-                        p->bulge};
+      *p = (SbCadPiece){x0 * axis.c + y0 * axis.s, y0 * axis.c - x0 * axis.s,
+                        x1 * axis.c + y1 * axis.s, y1 * axis.c - x1 * axis.s, p->bulge};
     }
     g_autofree char *shown = sb_printable(name, strlen(name));
-    sb_cad_outlines(cad, pieces, shown, GAP);
+    sb_cad_outlines(cad, pieces, shown, choices->join > 0 ? choices->join : GAP);
   }
-  for (guint i = 0; i < cad->bodies->len; i++) {
-    sb_cad_body_settle(cad->bodies->pdata[i], choices);
-  }
+  sb_cad_settle(cad, choices);
   left_out(cad, drawing);
+}
+
+// Places model space and makes its bodies; NULL with an error.
+static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError **error) {
+  if (!read_file(drawing, error)) {
+    return NULL;
+  }
+  if (drawing->unit == NULL) {
+    sb_app_error_input(error, "states no unit ($INSUNITS)%s",
+                       choices->section ? "" : ": specify it with --unit");
+    return NULL;
+  }
+  if (!sb_cad_unit(&drawing->scale, drawing->unit, error)) {
+    return NULL;
+  }
+  const Affine way = {drawing->scale, 0, 0, 0, drawing->scale, 0};
+  if (!place_block(drawing, drawing->model, &way, "0", 0, error)) {
+    return NULL;
+  }
+  SbCad *cad = sb_cad_new("DXF");
+  cad->unit = g_strdup(drawing->unit);
+  make_bodies(cad, drawing, choices);
+  if (cad->bodies->len == 0) {
+    g_ptr_array_add(cad->warnings, NULL);
+    g_autofree char *why = g_strjoinv("; ", (char **)cad->warnings->pdata);
+    sb_app_error_input(error, "contains no closed outline%s%s", *why != '\0' ? "; " : "", why);
+    g_clear_pointer(&cad, sb_cad_free);
+  }
+  return cad;
 }
 
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error) {
-  Reader reader = {.at = text, .end = text + length};
+  static const char mark[] = "\xEF\xBB\xBF"; // of UTF-8
+  const gsize skipped = length >= 3 && memcmp(text, mark, 3) == 0 ? 3 : 0;
   Drawing drawing = {
+      .text = {.at = text + skipped, .end = text + length},
+      .model = block_new(),
+      .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
+      .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .layers =
           g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)g_array_unref),
       .names = g_ptr_array_new_with_free_func(g_free),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
-      .blocks = sb_dxf_blocks_new(),
+      .unit = choices->unit,
   };
-  entity_init(&drawing.polyline);
+  drawing.text.separator = memchr(text, '\n', length) != NULL ? '\n' : '\r';
   GError *problem = NULL;
-  const char *unit = choices->unit;
   SbCad *cad = NULL;
   if (length >= 22 && memcmp(text, "AutoCAD Binary DXF", 18) == 0) {
-    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "is a binary DXF: save it as text (ASCII)");
-  } else if (choices->axis != NULL && strcmp(choices->axis, "z") == 0) {
-    g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "a DXF has the axes x and y, not z");
-  } else if (read_drawing(&drawing, &reader, &unit, &problem)) {
-    const double scale = unit != NULL ? scale_of(unit, &problem) : 0;
-    if (unit == NULL) {
-      g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "states no unit ($INSUNITS)%s",
-                  choices->section ? "" : ": specify it with --unit");
-    } else if (scale > 0) {
-      cad = sb_cad_new("DXF");
-      cad->unit = g_strdup(unit);
-      make_bodies(cad, &drawing, scale, choices);
-      if (cad->bodies->len == 0) {
-        g_set_error(&problem, SB_APP_ERROR, SB_APP_ERROR_INPUT, "contains no closed outline%s%s",
-                    cad->warnings->len > 0 ? "; " : "",
-                    cad->warnings->len > 0 ? (const char *)cad->warnings->pdata[0] : "");
-        g_clear_pointer(&cad, sb_cad_free);
-      }
-    }
+    sb_app_error_input(&problem, "is a binary DXF: save it as text (ASCII)");
+  } else if (choices->axis != NULL && choices->axis[2] != 0) {
+    sb_app_error_input(&problem, "a DXF has the axes x and y, not z");
+  } else {
+    cad = of_drawing(&drawing, choices, &problem);
   }
   if (problem != NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: %s", name, problem->message);
+    sb_app_error_input(error, "%s: %s", name, problem->message);
     g_error_free(problem);
   }
-  entity_clear(&drawing.polyline);
+  block_free(drawing.model);
+  g_hash_table_unref(drawing.blocks);
+  g_hash_table_unref(drawing.hidden);
   g_hash_table_unref(drawing.layers);
   g_ptr_array_unref(drawing.names);
   g_hash_table_unref(drawing.left_out);
   g_array_unref(drawing.centre);
-  sb_dxf_blocks_free(drawing.blocks);
   return cad;
 }

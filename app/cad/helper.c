@@ -1,18 +1,20 @@
-// sealbench-cad FILE.step ANGLE: the bodies of a STEP file as text on standard output, by gmsh and
-// its OpenCASCADE kernel. A program of its own: a kernel that crashes, hangs or takes memory
-// without end on a hostile file ends here, within the limits set below. Lengths in m, the axis
-// found along x; each body cut by the half-plane at ANGLE [rad] about it.
+// sealbench-cad FILE.step ANGLE DX DY DZ PX PY PZ: the bodies of a STEP file as text on standard
+// output, by gmsh and its OpenCASCADE kernel. A program of its own: a kernel that crashes, hangs or
+// takes memory without end on a hostile file ends here, within the limits set below. Lengths in m,
+// the axis along x; each body cut by the half-plane at ANGLE [rad] about it. DX and PX: direction
+// and a point [m] of the axis; "nan": found.
 //
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
 //   solid V cx cy cz Ixx Ixy Ixz Iyy Iyz Izz     volume, centre, moments about it at 1 kg/m3
 //   why TEXT                          instead of pieces
 //   piece x0 y0 x1 y1 bulge           of the half-section, in no order
-//   outline                           between the faces of a half-section
 //   end
 #include "app/cad/cad_private.h"
 
 #include <gmshc.h>
+#include <gsl/gsl_errno.h>
+#include <gsl/gsl_linalg.h>
 
 #include <math.h>
 #include <signal.h>
@@ -49,6 +51,7 @@ static void check(int failed, const char *what) {
 typedef struct {
   double point[3], direction[3]; // mm
   double area;                   // of the faces about it
+  bool ball;                     // any direction: the point is a centre
 } Axis;
 
 static double dot(const double a[3], const double b[3]) {
@@ -61,103 +64,210 @@ static void cross(double product[3], const double a[3], const double b[3]) {
   memcpy(product, c, sizeof c);
 }
 
-// The axis of the circle through three points; false where they lie on a line.
-static bool axis_of(Axis *axis, const double p[9]) {
-  double a[3], b[3], n[3], t[3];
-  for (int k = 0; k < 3; k++) {
-    a[k] = p[3 + k] - p[k];
-    b[k] = p[6 + k] - p[k];
-  }
-  cross(n, a, b);
-  const double nn = dot(n, n), aa = dot(a, a), bb = dot(b, b);
-  if (nn <= 1e-18 * aa * bb || nn == 0) {
-    return false;
-  }
-  double u[3], v[3];
-  cross(u, n, a);
-  cross(v, b, n);
-  for (int k = 0; k < 3; k++) {
-    t[k] = (bb * u[k] + aa * v[k]) / (2 * nn);
-    axis->direction[k] = n[k] / sqrt(nn);
-    axis->point[k] = p[k] + t[k];
-  }
-  // One sign for all, and the point nearest to the origin.
+// Moves the point to the one nearest to the origin; `oriented`: one sign of opposite directions.
+static void normalise(Axis *axis, bool oriented) {
   int largest = 0;
   for (int k = 1; k < 3; k++) {
     largest = fabs(axis->direction[k]) > fabs(axis->direction[largest]) + 1e-9 ? k : largest;
   }
-  if (axis->direction[largest] < 0) {
-    for (int k = 0; k < 3; k++) {
-      axis->direction[k] = -axis->direction[k];
-    }
-  }
   const double along = dot(axis->point, axis->direction);
+  const double sign = oriented && axis->direction[largest] < 0 ? -1 : 1;
   for (int k = 0; k < 3; k++) {
     axis->point[k] -= along * axis->direction[k];
+    axis->direction[k] *= sign;
   }
-  return true;
 }
 
-// The axis that most area of the faces of revolution turns about. In OpenCASCADE the first
-// parameter of a cylinder, a cone, a torus and a surface of revolution is the angle.
-static bool find_axis(Axis *best) {
-  static const char *const turned[] = {"Cylinder", "Cone", "Torus", "Surface of Revolution"};
-  enum { AXES_MAX = 500 };
+// Samples of a face in each direction; singular values that are zero, relative to the largest; two
+// axes that are one: 1 - cosine of the angle, and distance [mm].
+enum { GRID = 5, SAMPLES = GRID * GRID, AXES_MAX = 500 };
+static const double ZERO = 1e-3, PARALLEL = 1e-8, SAME = 1e-3;
+
+// Writes points and unit normals of a face; returns whether the kernel gives them.
+static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
+  double *low = NULL, *high = NULL, *at = NULL, *normal = NULL, where[2 * SAMPLES];
+  size_t n_low = 0, n_high = 0, n_at = 0, n_normal = 0;
+  int ierr;
+  gmshModelGetParametrizationBounds(2, tag, &low, &n_low, &high, &n_high, &ierr);
+  bool good = ierr == 0 && n_low == 2 && n_high == 2;
+  for (int i = 0; good && i < 2 * SAMPLES; i++) {
+    const int step = i % 2 == 0 ? i / 2 % GRID : i / 2 / GRID;
+    where[i] = low[i % 2] + (step + 0.4) / GRID * (high[i % 2] - low[i % 2]); // off poles and seams
+  }
+  if (good) {
+    gmshModelGetValue(2, tag, where, 2 * SAMPLES, &at, &n_at, &ierr);
+    good = ierr == 0 && n_at == 3 * SAMPLES;
+    gmshModelGetNormal(tag, where, 2 * SAMPLES, &normal, &n_normal, &ierr);
+    good = good && ierr == 0 && n_normal == 3 * SAMPLES;
+  }
+  for (int i = 0; good && i < 3 * SAMPLES; i++) {
+    q[i / 3][i % 3] = at[i];
+    n[i / 3][i % 3] = normal[i];
+    good = isfinite(at[i]) && isfinite(normal[i]);
+  }
+  double *const arrays[] = {low, high, at, normal};
+  for (int i = 0; i < 4; i++) {
+    gmshFree(arrays[i]);
+  }
+  return good;
+}
+
+// Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
+// the null space of this linear system (the line complex of the normals: H. Pottmann, J. Wallner,
+// Computational Line Geometry, Springer 2001, section 3.4): one dimension for a face of revolution,
+// two for a cylinder, three for a ball. Returns that number, with the centre of a ball as the
+// point; 0 for any other face, such as a plane.
+static int axis_of(Axis *axis, int tag) {
+  double q[SAMPLES][3], n[SAMPLES][3], centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
+  if (!sample(q, n, tag)) {
+    return 0;
+  }
+  for (int i = 0; i < 3 * SAMPLES; i++) {
+    centre[i % 3] += q[i / 3][i % 3] / SAMPLES;
+  }
+  for (int i = 0; i < SAMPLES; i++) {
+    for (int k = 0; k < 3; k++) {
+      q[i][k] -= centre[k];
+    }
+    size = fmax(size, sqrt(dot(q[i], q[i])));
+  }
+  for (int i = 0; i < SAMPLES; i++) {
+    cross(a + 6 * (size_t)i, q[i], n[i]);
+    for (int k = 0; k < 3; k++) {
+      a[6 * i + k] /= size;
+      a[6 * i + 3 + k] = n[i][k];
+    }
+  }
+  gsl_matrix_view matrix = gsl_matrix_view_array(a, SAMPLES, 6),
+                  right = gsl_matrix_view_array(v, 6, 6);
+  gsl_vector_view values = gsl_vector_view_array(s, 6), work = gsl_vector_view_array(w, 6);
+  if (!(size > 0) ||
+      gsl_linalg_SV_decomp(&matrix.matrix, &right.matrix, &values.vector, &work.vector) != 0) {
+    return 0;
+  }
+  int count = 0;
+  while (count < 4 && s[5 - count] <= ZERO * s[0]) {
+    count++;
+  }
+  if (count == 0 || count > 3) {
+    return 0;
+  }
+  int best = 6 - count;
+  double d[6][3], m[6][3], gram[3][3] = {{0}}, sum[3] = {0};
+  for (int j = 6 - count; j < 6; j++) {
+    double turned[3];
+    for (int k = 0; k < 3; k++) {
+      d[j][k] = v[6 * k + j];
+      m[j][k] = v[6 * (k + 3) + j];
+    }
+    cross(turned, d[j], m[j]);
+    for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
+      gram[k / 3][k % 3] += (k % 4 == 0) * dot(d[j], d[j]) - d[j][k / 3] * d[j][k % 3];
+    }
+    for (int k = 0; k < 3; k++) {
+      sum[k] += turned[k];
+    }
+    best = dot(d[j], d[j]) > dot(d[best], d[best]) ? j : best;
+  }
+  double p[3], across[3];
+  if (count == 3) {
+    double det[3];
+    cross(det, gram[0], gram[1]);
+    const double whole = dot(det, gram[2]);
+    for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
+      cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
+      p[k] = dot(across, sum) / whole;
+    }
+    count = whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
+  } else {
+    const double length = sqrt(dot(d[best], d[best]));
+    for (int k = 0; k < 3; k++) {
+      d[best][k] /= length;
+      m[best][k] /= length;
+    }
+    cross(p, d[best], m[best]);
+    memcpy(axis->direction, d[best], sizeof axis->direction);
+    // Without a rotation, an extruded face; with a pitch, a thread.
+    count = length > ZERO && (count == 2 || fabs(dot(d[best], m[best])) < ZERO) ? count : 0;
+  }
+  for (int k = 0; k < 3; k++) {
+    axis->point[k] = centre[k] + size * p[k];
+  }
+  return count;
+}
+
+static double apart(const double a[3], const Axis *axis) {
+  const double d[3] = {a[0] - axis->point[0], a[1] - axis->point[1], a[2] - axis->point[2]};
+  double off[3];
+  cross(off, d, axis->direction);
+  return sqrt(dot(off, off));
+}
+
+// Adds the area of a face to those about its axis.
+static void count_face(Axis *axes, int *count, int tag, const double wish[3]) {
+  Axis axis = {.ball = false};
+  int k = 0, ierr;
+  const int found = axis_of(&axis, tag);
+  axis.ball = found == 3;
+  gmshModelOccGetMass(2, tag, &axis.area, &ierr);
+  if (found == 0 || ierr != 0) {
+    return;
+  }
+  for (int j = 0; axis.ball && j < 3; j++) {
+    axis.direction[j] = isnan(wish[0]) ? j == 0 : wish[j];
+  }
+  while (k < *count && (axes[k].ball != axis.ball ||
+                        fabs(dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
+                        apart(axis.point, &axes[k]) > SAME)) {
+    k++;
+  }
+  if (k == *count && k < AXES_MAX) {
+    axes[(*count)++] = axis;
+  } else if (k < AXES_MAX) {
+    axes[k].area += axis.area;
+  }
+}
+
+// Finds the axis that most area of the round faces turns about, of those along `direction` if that
+// is given; without one that of the largest ball; without one the centre of mass if a direction or
+// a point is given. A given point replaces the one found.
+static bool find_axis(Axis *best, const int *bodies, size_t count, const double direction[3],
+                      const double through[3]) {
   static Axis axes[AXES_MAX];
-  int count = 0, ierr;
-  int *faces = NULL;
+  int found = 0, ierr, *faces = NULL;
   size_t face_count = 0;
+  const bool directed = !isnan(direction[0]), pointed = !isnan(through[0]);
   gmshModelGetEntities(&faces, &face_count, 2, &ierr);
   check(ierr, "the file's faces cannot be listed");
   for (size_t i = 0; i + 1 < face_count; i += 2) {
-    const int tag = faces[i + 1];
-    char *type = NULL;
-    gmshModelGetType(2, tag, &type, &ierr);
-    bool is_turned = false;
-    for (size_t k = 0; ierr == 0 && k < sizeof turned / sizeof *turned; k++) {
-      is_turned = is_turned || strcmp(type, turned[k]) == 0;
-    }
-    gmshFree(type);
-    if (!is_turned) {
-      continue;
-    }
-    double *low = NULL, *high = NULL, *at = NULL, area = 0;
-    size_t n_low = 0, n_high = 0, n_at = 0;
-    Axis axis = {0};
-    gmshModelGetParametrizationBounds(2, tag, &low, &n_low, &high, &n_high, &ierr);
-    if (ierr == 0 && n_low == 2 && n_high == 2) {
-      const double v = (low[1] + high[1]) / 2, step = (high[0] - low[0]) / 3;
-      double where[6] = {low[0], v, low[0] + step, v, low[0] + 2 * step, v};
-      gmshModelGetValue(2, tag, where, 6, &at, &n_at, &ierr);
-      const bool valued = ierr == 0 && n_at == 9;
-      gmshModelOccGetMass(2, tag, &area, &ierr);
-      if (valued && ierr == 0 && axis_of(&axis, at)) {
-        int k = 0;
-        while (k < count &&
-               (fabs(dot(axes[k].direction, axis.direction)) < 1 - 1e-10 ||
-                hypot(hypot(axes[k].point[0] - axis.point[0], axes[k].point[1] - axis.point[1]),
-                      axes[k].point[2] - axis.point[2]) > 1e-4)) {
-          k++;
-        }
-        if (k == count && count < AXES_MAX) {
-          axes[count++] = axis;
-        }
-        if (k < AXES_MAX) {
-          axes[k].area += area;
-        }
-      }
-    }
-    gmshFree(low);
-    gmshFree(high);
-    gmshFree(at);
+    count_face(axes, &found, faces[i + 1], direction);
   }
   gmshFree(faces);
-  for (int k = 0; k < count; k++) {
-    if (k == 0 || axes[k].area > best->area) {
-      *best = axes[k];
+  *best = (Axis){.ball = true};
+  for (int k = 0; k < found; k++) {
+    const bool fits = !directed || fabs(dot(axes[k].direction, direction)) >= 1 - PARALLEL;
+    const bool better = axes[k].ball == best->ball ? axes[k].area > best->area : best->ball;
+    *best = fits && better ? axes[k] : *best;
+  }
+  double mass = 0;
+  for (size_t i = 0; best->area == 0 && (directed || pointed) && i < count; i += 2) {
+    double part = 0, at[3] = {0};
+    gmshModelOccGetMass(3, bodies[i + 1], &part, &ierr);
+    gmshModelOccGetCenterOfMass(3, bodies[i + 1], &at[0], &at[1], &at[2], &ierr);
+    mass += part;
+    for (int k = 0; k < 3; k++) {
+      best->point[k] += part / mass * (at[k] - best->point[k]);
+      best->direction[k] = k == 0;
     }
   }
-  return count > 0;
+  if (directed) {
+    memcpy(best->direction, direction, sizeof best->direction);
+  }
+  if (pointed) {
+    memcpy(best->point, through, sizeof best->point);
+  }
+  normalise(best, !directed);
+  return best->area > 0 || mass > 0;
 }
 
 // Moves everything so that the axis is x and the half-plane at `angle` is y > 0, z = 0.
@@ -225,7 +335,6 @@ static bool print_edges(int face) {
   static guint told;
   told += pieces->len;
   good = good && told <= PIECES_MAX;
-  fprintf(out, "outline\n");
   for (guint i = 0; good && i < pieces->len; i++) {
     const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
     fprintf(out, "piece %.17g %.17g %.17g %.17g %.17g\n", p->x0, p->y0, p->x1, p->y1, p->bulge);
@@ -325,8 +434,8 @@ int main(int argc, char **argv) {
   // It writes no files, whatever the library would like to keep.
   signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &(struct rlimit){0, 0});
-  if (argc != 3) {
-    fprintf(stderr, "usage: sealbench-cad FILE.step ANGLE\n");
+  if (argc != 9) {
+    fprintf(stderr, "usage: sealbench-cad FILE.step ANGLE DX DY DZ PX PY PZ\n");
     return 1;
   }
   take_output();
@@ -353,7 +462,18 @@ int main(int argc, char **argv) {
   check(solids > SB_CAD_BODIES_MAX,
         "it contains more than 200 bodies: export only the seal's parts");
   Axis axis = {0};
-  check(!find_axis(&axis), "it has no face of revolution, so no axis");
+  double direction[3], through[3], length = 0;
+  for (int k = 0; k < 3; k++) {
+    direction[k] = strtod(argv[3 + k], NULL);
+    through[k] = strtod(argv[6 + k], NULL) / SCALE;
+    length = hypot(length, direction[k]);
+  }
+  for (int k = 0; k < 3; k++) {
+    direction[k] /= length;
+  }
+  gsl_set_error_handler_off();
+  check(!find_axis(&axis, bodies, 2 * solids, direction, through),
+        "it has no face of revolution, so no axis: specify it with --axis and --through");
   fprintf(out, "axis %.17g %.17g %.17g %.17g %.17g %.17g\n", SCALE * axis.point[0],
           SCALE * axis.point[1], SCALE * axis.point[2], axis.direction[0], axis.direction[1],
           axis.direction[2]);

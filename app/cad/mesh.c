@@ -1,6 +1,6 @@
-// A body from an STL mesh: its unit guessed, its axis found, its half-section cut out of the
-// facets. Facets are chords of the surface: the half-plane goes through the vertex that is farthest
-// from the axis, where diameters are those of the vertices.
+// Bodies from an STL mesh: its unit guessed, its axis found, its shells separated and measured,
+// their half-sections cut out of the facets. Facets are chords of the surface: the half-plane goes
+// through a vertex that is farthest from the axis, where diameters are those of the vertices.
 #include "app/cad/cad_private.h"
 
 #include "app/base/error.h"
@@ -10,11 +10,20 @@
 #include <math.h>
 #include <string.h>
 
-// Sides that a valve's part may have [m]; beside the vertex, so that none lies on the half-plane
-// [rad]; what a body of revolution's moments across the axis differ by; ends that are one point
-// [m].
-static const double SIDE_LEAST = 1e-3, SIDE_MOST = 40e-3, BESIDE = 1e-7, ALIKE = 0.02, GAP = 1e-8,
-                    SHORT = 1e-9;
+// Sides that a valve's part may have [m]; how far the half-plane is from the vertex, so that no
+// vertex is on it [rad]; ends that are one point, and a piece that is none [m]; how much more
+// volume another half-plane must give, revolved; and when it need not be tried, relative.
+static const double SIDE_LEAST = 1e-3, SIDE_MOST = 40e-3, NEXT_TO = 1e-7, GAP = 1e-8, SHORT = 1e-9,
+                    MORE = 1e-3, ROUND = 0.02;
+
+// Half-planes that are tried, one in each sector about the axis.
+enum { SECTORS = 8 };
+
+// A body: shells of a mesh, as triangles of it.
+typedef struct {
+  GArray *triangles; // [3] vertex indices
+  SbSolid solid;
+} Shell;
 
 bool sb_cad_is_stl(const char *data, gsize length) {
   const gsize head = 84, facet = 50;
@@ -28,121 +37,280 @@ bool sb_cad_is_stl(const char *data, gsize length) {
   return length > 6 && g_ascii_strncasecmp(data, "solid", 5) == 0;
 }
 
-// Metres to the unit in which `side`, the mesh's longest, is that of a valve's part, and its name;
-// NULL with an error that tells what could be meant.
+// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part, and
+// writes its length [m]; NULL with an error that names the plausible units.
 static const char *guess_unit(double side, double *scale, GError **error) {
   static const struct {
     const char *name;
     double scale;
-  } units[] = {{"mm", 1e-3}, {"inch", 25.4e-3}, {"m", 1}, {"um", 1e-6}};
+  } units[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 25.4e-3}, {"m", 1}, {"um", 1e-6}};
   const char *found = NULL;
+  guint count = 0;
   g_autoptr(GString) all = g_string_new(NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(units); i++) {
     const double real = side * units[i].scale;
     if (real >= SIDE_LEAST && real <= SIDE_MOST) {
-      g_string_append_printf(all, "%sin %s %.3g mm", all->len > 0 ? ", " : "", units[i].name,
-                             1e3 * real);
-      found = all->len > 0 && found != NULL ? "" : units[i].name;
+      g_string_append_printf(all, "%s%.3g mm in %s", count++ > 0 ? ", " : "", 1e3 * real,
+                             units[i].name);
+      found = units[i].name;
       *scale = units[i].scale;
     }
   }
-  if (found != NULL && found[0] != '\0') {
-    return found;
+  if (count != 1) {
+    g_set_error(
+        error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+        "an STL file states no unit, and its longest side of %.4g is %s: specify it with --unit",
+        side, count > 0 ? all->str : "that of a valve's part in none");
   }
-  g_set_error(
-      error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-      "an STL file states no unit, and its longest side of %.4g is %s: specify it with --unit",
-      side, found != NULL ? all->str : "that of a valve's part in none");
-  return NULL;
+  return count == 1 ? found : NULL;
 }
 
-// The mesh in metres with its axis along x.
-static void turn(SbStl *stl, SbSolid *solid, int axis, double scale) {
-  for (gsize i = 0; i < stl->vertex_count; i++) {
-    double *v = stl->vertices + 3 * i;
-    const double old[3] = {v[0], v[1], v[2]};
-    for (int k = 0; k < 3; k++) {
-      v[k] = scale * old[(axis + k) % 3];
-    }
-  }
-  const SbSolid old = *solid;
-  solid->volume = old.volume * pow(scale, 3);
-  solid->mass = old.mass * pow(scale, 3);
-  for (int k = 0; k < 3; k++) {
-    solid->centre[k] = scale * old.centre[(axis + k) % 3];
-    for (int l = 0; l < 3; l++) {
-      solid->inertia[k][l] = pow(scale, 5) * old.inertia[(axis + k) % 3][(axis + l) % 3];
-    }
-  }
+// Shells ------------------------------------------------------------------------------------------
+
+static void clear_shell(gpointer data) {
+  g_array_unref(((Shell *)data)->triangles);
 }
 
-// How far a body is from one of revolution about an axis of the file.
-static double asymmetry(const SbSolid *solid, int axis) {
-  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-  const double ia = solid->inertia[a][a], ib = solid->inertia[b][b];
-  return (fabs(ia - ib) + 2 * fabs(solid->inertia[a][b])) / (ia + ib);
+static unsigned root(unsigned *parent, unsigned v) {
+  while (parent[v] != v) {
+    v = parent[v] = parent[parent[v]];
+  }
+  return v;
 }
 
-static void extent(const SbStl *stl, double low[3], double high[3]) {
-  for (int k = 0; k < 3; k++) {
-    low[k] = INFINITY;
-    high[k] = -INFINITY;
-  }
-  for (gsize i = 0; i < 3 * stl->vertex_count; i++) {
-    low[i % 3] = fmin(low[i % 3], stl->vertices[i]);
-    high[i % 3] = fmax(high[i % 3], stl->vertices[i]);
-  }
-}
-
-// The middle of the mesh's box comes to the axis, unless the axis is as good as there.
-static void centre(SbStl *stl, SbSolid *solid) {
+// A connected part of the mesh.
+typedef struct {
+  double volume; // signed: a cavity has a negative one
   double low[3], high[3];
-  extent(stl, low, high);
+  guint shell; // that it belongs to
+} Part;
+
+// Adds a triangle's corners and its tetrahedron with the point `from`.
+static void add_triangle(Part *part, const double *const v[3], const double from[3]) {
+  double d[3][3];
+  for (int k = 0; k < 3; k++) {
+    for (int j = 0; j < 3; j++) {
+      part->low[j] = fmin(part->low[j], v[k][j]);
+      part->high[j] = fmax(part->high[j], v[k][j]);
+      d[k][j] = v[k][j] - from[j];
+    }
+  }
+  part->volume += (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
+                   d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
+                   d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
+                  6;
+}
+
+// Returns the smallest part with a volume that encloses a cavity; the cavity itself if there is
+// none.
+static guint enclosing(const GArray *parts, guint cavity) {
+  const Part *inner = &g_array_index(parts, Part, cavity);
+  guint best = cavity;
+  for (guint i = 0; i < parts->len; i++) {
+    const Part *part = &g_array_index(parts, Part, i);
+    bool inside = part->volume > 0;
+    for (int k = 0; k < 3; k++) {
+      inside = inside && part->low[k] <= inner->low[k] && part->high[k] >= inner->high[k];
+    }
+    if (inside && (best == cavity || part->volume < g_array_index(parts, Part, best).volume)) {
+      best = i;
+    }
+  }
+  return best;
+}
+
+// Returns the connected parts of the mesh; `part_of` [vertices] receives the part of each
+// triangle's first vertex. NULL with an error if there are too many.
+static GArray *find_parts(const SbStl *stl, guint *part_of, GError **error) {
+  GArray *parts = g_array_new(FALSE, FALSE, sizeof(Part));
+  g_autofree unsigned *parent = g_new(unsigned, stl->vertex_count);
+  for (gsize i = 0; i < stl->vertex_count; i++) {
+    parent[i] = (unsigned)i;
+    part_of[i] = G_MAXUINT;
+  }
+  for (gsize i = 0; i < 3 * stl->triangle_count; i++) {
+    parent[root(parent, stl->triangles[i])] = root(parent, stl->triangles[i - i % 3]);
+  }
+  guint solids = 0;
+  for (gsize i = 0; i < stl->triangle_count; i++) {
+    const unsigned *corner = stl->triangles + 3 * i, top = root(parent, corner[0]);
+    if (part_of[top] == G_MAXUINT) {
+      const Part none = {0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+      part_of[top] = parts->len;
+      g_array_append_val(parts, none);
+    }
+    part_of[corner[0]] = part_of[top];
+    const double *const v[3] = {stl->vertices + 3 * (gsize)corner[0],
+                                stl->vertices + 3 * (gsize)corner[1],
+                                stl->vertices + 3 * (gsize)corner[2]};
+    add_triangle(&g_array_index(parts, Part, part_of[top]), v, stl->vertices + 3 * (gsize)top);
+  }
+  for (guint i = 0; i < parts->len; i++) {
+    solids += g_array_index(parts, Part, i).volume > 0;
+  }
+  if (solids > SB_CAD_BODIES_MAX || parts->len > 100 * SB_CAD_BODIES_MAX) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "it contains more than %d bodies: export the seal's parts alone",
+                SB_CAD_BODIES_MAX);
+    g_clear_pointer(&parts, g_array_unref);
+  }
+  return parts;
+}
+
+// Separates the bodies of a mesh, each with its cavities, and measures them. NULL with an error.
+static GArray *separate(const SbStl *stl, GError **error) {
+  g_autofree guint *part_of = g_new(guint, stl->vertex_count);
+  g_autoptr(GArray) parts = find_parts(stl, part_of, error);
+  g_autoptr(GArray) shells = g_array_new(FALSE, FALSE, sizeof(Shell));
+  g_array_set_clear_func(shells, clear_shell);
+  for (guint pass = 0; parts != NULL && pass < 2; pass++) {
+    for (guint i = 0; i < parts->len; i++) {
+      Part *part = &g_array_index(parts, Part, i);
+      const guint outer = pass == 0 ? i : enclosing(parts, i);
+      if (pass == 1 && part->volume <= 0 && outer != i) {
+        part->shell = g_array_index(parts, Part, outer).shell;
+      } else if (part->volume > 0 ? pass == 0 : pass == 1) {
+        const Shell shell = {.triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned))};
+        part->shell = shells->len;
+        g_array_append_val(shells, shell);
+      }
+    }
+  }
+  for (gsize i = 0; parts != NULL && i < stl->triangle_count; i++) {
+    const unsigned *corner = stl->triangles + 3 * i;
+    const guint shell = g_array_index(parts, Part, part_of[corner[0]]).shell;
+    g_array_append_vals(g_array_index(shells, Shell, shell).triangles, corner, 1);
+  }
+  for (guint i = 0; i < shells->len; i++) {
+    Shell *shell = &g_array_index(shells, Shell, i);
+    SbReport report = {0};
+    if (sb_solid_mesh(&shell->solid, stl->vertices, stl->vertex_count,
+                      (const unsigned *)(void *)shell->triangles->data, shell->triangles->len, 1,
+                      &report) != SB_OK) {
+      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "body %u: %s", i + 1, report.text);
+      return NULL;
+    }
+  }
+  return parts != NULL ? g_steal_pointer(&shells) : NULL;
+}
+
+// The axis ----------------------------------------------------------------------------------------
+
+// How far the bodies are from bodies of revolution about an axis of the file.
+static double asymmetry(const GArray *shells, int axis) {
+  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
+  double off = 0, sum = 0;
+  for (guint i = 0; i < shells->len; i++) {
+    double(*const moment)[3] = g_array_index(shells, Shell, i).solid.inertia;
+    off += hypot(moment[a][a] - moment[b][b], 2 * moment[a][b]);
+    sum += moment[a][a] + moment[b][b];
+  }
+  return off / sum;
+}
+
+// Three unit vectors at right angles, the first along `axis`; of a coordinate axis, the others are
+// the next two coordinate axes.
+static void frame_of(double frame[3][3], const double axis[3]) {
+  const double length = hypot(hypot(axis[0], axis[1]), axis[2]);
+  int main = 0;
   for (int k = 1; k < 3; k++) {
-    const double middle = 0.5 * (low[k] + high[k]);
-    if (fabs(middle) > 1e-3 * (high[k] - low[k])) {
-      solid->centre[k] -= middle;
-      for (gsize i = 0; i < stl->vertex_count; i++) {
-        stl->vertices[3 * i + (gsize)k] -= middle;
+    main = fabs(axis[k]) > fabs(axis[main]) ? k : main;
+  }
+  for (int k = 0; k < 3; k++) {
+    frame[0][k] = axis[k] / length;
+  }
+  const double off = frame[0][(main + 1) % 3];
+  double norm = 0;
+  for (int k = 0; k < 3; k++) {
+    frame[1][k] = (k == (main + 1) % 3) - off * frame[0][k];
+    norm = hypot(norm, frame[1][k]);
+  }
+  for (int k = 0; k < 3; k++) {
+    frame[1][k] /= norm;
+  }
+  for (int k = 0; k < 3; k++) {
+    const int a = (k + 1) % 3, b = (k + 2) % 3;
+    frame[2][k] = frame[0][a] * frame[1][b] - frame[0][b] * frame[1][a];
+  }
+}
+
+static void turn_point(double point[3], const double frame[3][3]) {
+  const double old[3] = {point[0], point[1], point[2]};
+  for (int k = 0; k < 3; k++) {
+    point[k] = frame[k][0] * old[0] + frame[k][1] * old[1] + frame[k][2] * old[2];
+  }
+}
+
+// Turns and moves the mesh and its bodies so that the axis is x. `through`: NULL, the middle of the
+// box, unless the axis is as good as there.
+static void place(SbStl *stl, GArray *shells, const double frame[3][3], const double *through) {
+  double low[3], high[3], to[3] = {0};
+  for (gsize i = 0; i < stl->vertex_count; i++) {
+    turn_point(stl->vertices + 3 * i, frame);
+  }
+  sb_stl_extent(stl, low, high);
+  if (through != NULL) {
+    memcpy(to, through, sizeof to);
+    turn_point(to, frame);
+  } else {
+    for (int k = 1; k < 3; k++) {
+      const double middle = 0.5 * (low[k] + high[k]);
+      to[k] = fabs(middle) > 1e-3 * (high[k] - low[k]) ? middle : 0;
+    }
+  }
+  for (gsize i = 0; i < stl->vertex_count; i++) {
+    stl->vertices[3 * i + 1] -= to[1];
+    stl->vertices[3 * i + 2] -= to[2];
+  }
+  for (guint i = 0; i < shells->len; i++) {
+    SbSolid *solid = &g_array_index(shells, Shell, i).solid;
+    double half[3][3];
+    turn_point(solid->centre, frame);
+    solid->centre[1] -= to[1];
+    solid->centre[2] -= to[2];
+    for (int pass = 0; pass < 2; pass++) { // frame * inertia * frame'
+      for (int k = 0; k < 3; k++) {
+        for (int l = 0; l < 3; l++) {
+          half[l][k] = solid->inertia[k][l];
+        }
+      }
+      for (int k = 0; k < 3; k++) {
+        turn_point(half[k], frame);
+        memcpy(solid->inertia[k], half[k], sizeof half[k]);
       }
     }
   }
 }
 
+// The section -------------------------------------------------------------------------------------
+
 // Where an edge crosses the plane; from its lower vertex on, so that both facets find the same.
-static void cross(double xu[2], const SbStl *stl, unsigned a, unsigned b, const double *beside,
-                  double c, double s) {
-  const unsigned i = MIN(a, b), k = MAX(a, b);
-  const double *p = stl->vertices + 3 * (gsize)i, *q = stl->vertices + 3 * (gsize)k;
-  const double t = beside[i] / (beside[i] - beside[k]);
+static void cross(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c, double s) {
+  const double *p = stl->vertices + 3 * (gsize)MIN(a, b);
+  const double *q = stl->vertices + 3 * (gsize)MAX(a, b);
+  const double off = p[2] * c - p[1] * s;
+  const double t = off / (off - (q[2] * c - q[1] * s));
   const double up = p[1] * c + p[2] * s, uq = q[1] * c + q[2] * s;
   xu[0] = p[0] + t * (q[0] - p[0]);
   xu[1] = up + t * (uq - up);
 }
 
-// Cuts the facets by the plane through the axis and the vertex farthest from it.
-static void cut(GArray *pieces, const SbStl *stl) {
-  double most = 0, angle = 0;
-  for (gsize i = 0; i < stl->vertex_count; i++) {
-    const double *v = stl->vertices + 3 * i, r = hypot(v[1], v[2]);
-    if (r > most) {
-      most = r;
-      angle = atan2(v[2], v[1]);
-    }
-  }
-  const double c = cos(angle + BESIDE), s = sin(angle + BESIDE);
-  g_autofree double *beside = g_new(double, stl->vertex_count + 1);
-  for (gsize i = 0; i < stl->vertex_count; i++) {
-    beside[i] = stl->vertices[3 * i + 2] * c - stl->vertices[3 * i + 1] * s;
-  }
-  for (gsize i = 0; i < stl->triangle_count; i++) {
-    const unsigned *corner = stl->triangles + 3 * i;
+// Cuts the facets of a body by the half-plane at `angle`.
+static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
+  const double c = cos(angle), s = sin(angle);
+  GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  for (guint i = 0; i < shell->triangles->len; i++) {
+    const unsigned *corner = (const unsigned *)(void *)shell->triangles->data + 3 * (gsize)i;
     double at[2][2];
+    bool behind[3];
     int found = 0;
+    for (int k = 0; k < 3; k++) {
+      const double *v = stl->vertices + 3 * (gsize)corner[k];
+      behind[k] = v[2] * c - v[1] * s < 0;
+    }
     for (int k = 0; k < 3 && found < 2; k++) {
-      const unsigned a = corner[k], b = corner[(k + 1) % 3];
-      if ((beside[a] < 0) != (beside[b] < 0)) {
-        cross(at[found++], stl, a, b, beside, c, s);
+      if (behind[k] != behind[(k + 1) % 3]) {
+        cross(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {
@@ -150,25 +318,65 @@ static void cut(GArray *pieces, const SbStl *stl) {
       g_array_append_val(pieces, piece);
     }
   }
+  return pieces;
 }
 
-// Leaves out the points between which an outline is straight.
-static void straighten(SbCadBody *body) {
-  const guint n = body->profile->len;
-  g_autoptr(GArray) kept = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
-  for (guint i = 0; i < n; i++) {
-    const SbProfilePoint p = g_array_index(body->profile, SbProfilePoint, i);
-    const bool end = kept->len == 0 || (i + 1 == n && !body->closed);
-    const SbProfilePoint a = end ? p : g_array_index(kept, SbProfilePoint, kept->len - 1);
-    const SbProfilePoint b = g_array_index(body->profile, SbProfilePoint, (i + 1) % n);
-    const double dx = b.x - a.x, dr = b.r - a.r, chord = hypot(dx, dr);
-    const double off = chord > 0 ? fabs((p.r - a.r) * dx - (p.x - a.x) * dr) / chord : 1;
-    if (end || off > SB_CAD_TOLERANCE) {
-      g_array_append_val(kept, p);
+// Angles of the vertices farthest from the axis, of the sector where it is farthest first; not a
+// number where a sector has none.
+static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell) {
+  double most[SECTORS] = {0};
+  int first = 0;
+  for (int k = 0; k < SECTORS; k++) {
+    angle[k] = NAN;
+  }
+  for (guint i = 0; i < 3 * shell->triangles->len; i++) {
+    const double *v =
+        stl->vertices + 3 * (gsize)((const unsigned *)(void *)shell->triangles->data)[i];
+    const double r = hypot(v[1], v[2]), at = atan2(v[2], v[1]);
+    const int sector = CLAMP((int)((at + M_PI) / (2 * M_PI) * SECTORS), 0, SECTORS - 1);
+    if (r > most[sector]) {
+      most[sector] = r;
+      angle[sector] = at + NEXT_TO;
+      first = r > most[first] ? sector : first;
     }
   }
-  g_array_set_size(body->profile, 0);
-  g_array_append_vals(body->profile, kept->data, kept->len);
+  const double swap = angle[0];
+  angle[0] = angle[first];
+  angle[first] = swap;
+}
+
+// Adds a body with its half-section: without a chosen angle at the first of the farthest vertices,
+// or where the half-plane meets clearly more of the body, as next to ports.
+static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
+                     const SbCadChoices *choices) {
+  double angle[SECTORS], best = 0;
+  farthest(angle, stl, shell);
+  g_autoptr(SbCad) chosen = NULL;
+  const SbCadChoices none = {0};
+  for (int k = 0; k < (choices->angle != NULL ? 1 : SECTORS); k++) {
+    const double at = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[k];
+    if (isnan(at) || fabs(best / shell->solid.volume - 1) < ROUND) {
+      continue;
+    }
+    g_autoptr(SbCad) tried = sb_cad_new("");
+    g_autoptr(GArray) pieces = cut(stl, shell, at);
+    SbCadBody *body = sb_cad_body_new(name);
+    g_ptr_array_add(tried->bodies, body);
+    sb_cad_section(tried, body, pieces, GAP);
+    sb_cad_settle(tried, &none);
+    if (chosen == NULL || body->revolved.volume > (1 + MORE) * best) {
+      best = body->revolved.volume;
+      sb_cad_free(chosen);
+      chosen = g_steal_pointer(&tried);
+    }
+  }
+  SbCadBody *body = g_ptr_array_steal_index(chosen->bodies, 0);
+  g_array_set_size(body->features, 0);
+  g_ptr_array_extend_and_steal(cad->warnings, g_steal_pointer(&chosen->warnings));
+  chosen->warnings = g_ptr_array_new();
+  body->measured = true;
+  body->solid = shell->solid;
+  g_ptr_array_add(cad->bodies, body);
 }
 
 static char *name_of(const char *path) {
@@ -183,61 +391,42 @@ static char *name_of(const char *path) {
 // From the mesh in the file's own numbers.
 static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices, GError **error) {
   double low[3], high[3], scale = 0;
-  extent(stl, low, high);
+  sb_stl_extent(stl, low, high);
   const double side = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
   const char *unit = choices->unit;
-  if (unit != NULL) {
-    g_autofree char *one = g_strdup_printf("1 %s", unit);
-    if (!sb_quantity_parse(&scale, one, "m", "mm", error)) {
-      return NULL;
-    }
-  } else if ((unit = guess_unit(side, &scale, error)) == NULL) {
+  if (unit != NULL ? !sb_cad_unit(&scale, unit, error)
+                   : (unit = guess_unit(side, &scale, error)) == NULL) {
     return NULL;
   }
-  SbSolid solid;
-  SbReport report = {0};
-  if (sb_solid_mesh(&solid, stl->vertices, stl->vertex_count, stl->triangles, stl->triangle_count,
-                    1, &report) != SB_OK) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", report.text);
+  for (gsize i = 0; i < 3 * stl->vertex_count; i++) {
+    stl->vertices[i] *= scale;
+  }
+  g_autoptr(GArray) shells = separate(stl, error);
+  if (shells == NULL) {
     return NULL;
   }
-  int axis = choices->axis != NULL ? choices->axis[0] - 'x' : 0;
-  for (int k = 1; k < 3 && choices->axis == NULL; k++) {
-    axis = asymmetry(&solid, k) < asymmetry(&solid, axis) ? k : axis;
+  int along = 0;
+  for (int k = 1; k < 3; k++) {
+    along = asymmetry(shells, k) < asymmetry(shells, along) ? k : along;
   }
+  const double found[3] = {along == 0, along == 1, along == 2};
+  const double *axis = choices->axis != NULL ? choices->axis : found;
+  double frame[3][3];
+  frame_of(frame, axis);
+  place(stl, shells, (const double(*)[3])frame, choices->through);
   SbCad *cad = sb_cad_new("STL");
   cad->unit = g_strdup(unit);
-  cad->axis = g_strdup_printf("the file's %c", 'x' + axis);
+  cad->axis = sb_cad_axis_text(choices->through, axis);
   if (choices->unit == NULL) {
-    g_ptr_array_add(cad->warnings, g_strdup_printf("an STL file states no unit: in %s its longest "
-                                                   "side is %.4g mm",
-                                                   unit, 1e3 * scale * side));
+    sb_cad_note(cad, "an STL file states no unit: in %s its longest side is %.4g mm", unit,
+                1e3 * scale * side);
   }
-  if (asymmetry(&solid, axis) > ALIKE) {
-    g_ptr_array_add(cad->warnings, g_strdup_printf("it is not a body of revolution: its moments "
-                                                   "across the axis differ by %.2g %%",
-                                                   100 * asymmetry(&solid, axis)));
-  }
-  turn(stl, &solid, axis, scale);
-  centre(stl, &solid);
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   g_autofree char *name = name_of(path);
-  cut(pieces, stl);
-  sb_cad_outlines(cad, pieces, name, GAP);
-  for (guint i = 0; i < cad->bodies->len; i++) {
-    SbCadBody *body = cad->bodies->pdata[i];
-    straighten(body);
-    body->measured = cad->bodies->len == 1;
-    body->solid = body->measured ? solid : body->solid;
-    sb_cad_body_settle(body, choices);
+  for (guint i = 0; i < shells->len; i++) {
+    g_autofree char *own = i > 0 ? g_strdup_printf("%s %u", name, i + 1) : g_strdup(name);
+    add_body(cad, stl, &g_array_index(shells, Shell, i), own, choices);
   }
-  if (cad->bodies->len == 0) {
-    const guint told = cad->warnings->len;
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "its section contains no closed outline%s%s", told > 0 ? "; " : "",
-                told > 0 ? (const char *)cad->warnings->pdata[told - 1] : "");
-    g_clear_pointer(&cad, sb_cad_free);
-  }
+  sb_cad_settle(cad, choices);
   return cad;
 }
 

@@ -1,14 +1,28 @@
 // Pieces joined to outlines, and outlines made half-sections about the line y = 0.
+#include "app/base/number.h"
 #include "app/cad/cad_private.h"
+#include "app/cad/profile.h"
 #include "engine/numeric/arc.h"
 
 #include <math.h>
+#include <string.h>
 
 // Comparing each end with each: a layer of more pieces is no seal's part.
 enum { PIECES_MAX = 5000 };
 
+// Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
+// a line or circle from the next one that continues it [m].
+static const double SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9;
+
 static SbCadPiece reversed(SbCadPiece piece) {
   return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
+}
+
+// Length of a piece.
+static double length_of(const SbCadPiece *piece) {
+  const double chord = hypot(piece->x1 - piece->x0, piece->y1 - piece->y0);
+  const double half = 2 * atan(fabs(piece->bulge));
+  return half > 0 ? chord * half / sin(half) : chord;
 }
 
 // The unused piece with the end that is nearest to (x, y), turned to begin there; -1 if none lies
@@ -36,9 +50,13 @@ static int next_piece(SbCadPiece *out, const GArray *pieces, const bool *used, d
 // Adds pieces to the end of `chain` until it closes or none follows; whether it closes.
 static bool extend(GArray *chain, const GArray *pieces, bool *used, double gap) {
   const SbCadPiece first = g_array_index(chain, SbCadPiece, 0);
-  for (;;) {
+  double length = 0;
+  for (guint i = 0;;) {
     const SbCadPiece last = g_array_index(chain, SbCadPiece, chain->len - 1);
-    if (hypot(last.x1 - first.x0, last.y1 - first.y0) <= gap) {
+    for (; i < chain->len; i++) {
+      length += length_of(&g_array_index(chain, SbCadPiece, i));
+    }
+    if (hypot(last.x1 - first.x0, last.y1 - first.y0) <= gap && length > 2 * gap) {
       return true;
     }
     SbCadPiece next;
@@ -64,6 +82,113 @@ static void turn(GArray *chain) {
 static SbArc circle_of(const SbCadPiece *piece) {
   const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
   return sb_arc_of(from, to, piece->bulge);
+}
+
+// The point of a piece at a fraction of its length.
+static void point_of(const SbCadPiece *piece, double part, double at[2]) {
+  at[0] = piece->x0 + part * (piece->x1 - piece->x0);
+  at[1] = piece->y0 + part * (piece->y1 - piece->y0);
+  if (piece->bulge != 0) {
+    const SbArc arc = circle_of(piece);
+    sb_arc_place(&arc, part, at);
+  }
+}
+
+// Middle of a piece.
+static void middle_of(const SbCadPiece *piece, double at[2]) {
+  point_of(piece, 0.5, at);
+}
+
+// Returns the place of a point on the line or circle of a piece as a fraction of its length; not a
+// number if the point is farther than `same` from it.
+static double place_on(const SbCadPiece *piece, double x, double y, double same) {
+  if (piece->bulge != 0) {
+    const SbArc arc = circle_of(piece);
+    const double u = x - arc.centre[0], v = y - arc.centre[1], once = 2 * M_PI / fabs(arc.sweep);
+    const double part = fmod((atan2(v, u) - arc.start) / arc.sweep, once);
+    // Centred on the piece: a point just before the start has a small negative place.
+    const double centred = part < 0.5 - once / 2   ? part + once
+                           : part > 0.5 + once / 2 ? part - once
+                                                   : part;
+    return fabs(hypot(u, v) - arc.radius) <= same ? centred : NAN;
+  }
+  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, chord = hypot(dx, dy);
+  const double off = ((y - piece->y0) * dx - (x - piece->x0) * dy) / chord;
+  return fabs(off) <= same ? ((x - piece->x0) * dx + (y - piece->y0) * dy) / (chord * chord) : NAN;
+}
+
+// Writes to `place` where the ends of `other` are on `piece`, if both are of one line or circle.
+static bool overlaps(const SbCadPiece *piece, const SbCadPiece *other, double same,
+                     double place[2]) {
+  double middle[2];
+  middle_of(other, middle);
+  place[0] = place_on(piece, other->x0, other->y0, same);
+  if (isnan(place[0])) {
+    return false;
+  }
+  place[1] = place_on(piece, other->x1, other->y1, same);
+  return !isnan(place[1]) && !isnan(place_on(piece, middle[0], middle[1], same)) &&
+         length_of(other) > 4 * same;
+}
+
+// Divides pieces at the ends of others that run along them, so that lines that were drawn twice,
+// also in part, become equal pieces.
+static void divide_overlaps(GArray *pieces, double same) {
+  for (guint i = 0; i < pieces->len; i++) {
+    for (guint k = 0; k < pieces->len; k++) {
+      SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+      const SbCadPiece other = g_array_index(pieces, SbCadPiece, k);
+      double place[2];
+      if (i == k || !overlaps(piece, &other, same, place)) {
+        continue;
+      }
+      for (int end = 0; end < 2; end++) {
+        const double part = place[end], length = length_of(piece);
+        if (part * length > same && (1 - part) * length > same && pieces->len < 2 * PIECES_MAX) {
+          const double x = end == 0 ? other.x0 : other.x1, y = end == 0 ? other.y0 : other.y1;
+          const double quarter = atan(piece->bulge);
+          const SbCadPiece rest = {x, y, piece->x1, piece->y1, tan((1 - part) * quarter)};
+          *piece = (SbCadPiece){piece->x0, piece->y0, x, y, tan(part * quarter)};
+          g_array_append_val(pieces, rest);
+          k--; // the other end; the remainder is examined in its turn
+          break;
+        }
+      }
+    }
+  }
+}
+
+// Returns the pieces without those of no length and those drawn twice, and counts the latter.
+static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
+  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  for (guint i = 0; i < pieces->len; i++) {
+    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    if (length_of(piece) > SHORT) {
+      g_array_append_val(all, *piece);
+    }
+  }
+  divide_overlaps(all, same);
+  GArray *out = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  for (guint i = 0; i < all->len; i++) {
+    const SbCadPiece *piece = &g_array_index(all, SbCadPiece, i);
+    double at[2], middle[2];
+    middle_of(piece, middle);
+    bool new = true;
+    for (guint k = 0; new &&k < out->len; k++) {
+      const SbCadPiece *one = &g_array_index(out, SbCadPiece, k);
+      middle_of(one, at);
+      const bool along = hypot(one->x0 - piece->x0, one->y0 - piece->y0) <= same &&
+                         hypot(one->x1 - piece->x1, one->y1 - piece->y1) <= same;
+      const bool against = hypot(one->x0 - piece->x1, one->y0 - piece->y1) <= same &&
+                           hypot(one->x1 - piece->x0, one->y1 - piece->y0) <= same;
+      new = !((along || against) && hypot(at[0] - middle[0], at[1] - middle[1]) <= same);
+    }
+    if (new) {
+      g_array_append_val(out, *piece);
+    }
+  }
+  *doubled = all->len - out->len;
+  return out;
 }
 
 // Appends the parts of `piece` above the axis; ends on it have y = 0 exactly.
@@ -98,27 +223,23 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
     }
   }
   at[cuts] = 1;
-  double x = piece.x0, y = piece.y0;
+  double from[2] = {piece.x0, piece.y0};
   for (int i = 1; i <= cuts; i++) {
-    const double part = at[i], middle = (at[i - 1] + part) / 2;
-    double x1 = piece.x1, y1 = piece.y1, high;
-    if (piece.bulge == 0) {
-      high = piece.y0 + middle * (piece.y1 - piece.y0);
-      x1 = i < cuts ? piece.x0 + part * (piece.x1 - piece.x0) : x1;
-    } else {
-      double place[2];
-      sb_arc_place(&arc, middle, place);
-      high = place[1];
-      sb_arc_place(&arc, part, place);
-      x1 = i < cuts ? place[0] : x1;
+    double to[2] = {piece.x1, piece.y1}, high = 0, place[2];
+    for (int k = 1; k <= 4; k++) { // its middle may touch the axis
+      point_of(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
+      high = k < 4 ? fmax(high, place[1]) : high;
     }
-    y1 = i < cuts ? 0 : y1;
+    if (i < cuts) {
+      to[0] = place[0];
+      to[1] = 0;
+    }
     if (high > gap) {
-      const SbCadPiece kept = {x, y, x1, y1, tan(arc.sweep * (part - at[i - 1]) / 4)};
+      const SbCadPiece kept = {from[0], from[1], to[0], to[1],
+                               tan(atan(piece.bulge) * (at[i] - at[i - 1]))};
       g_array_append_val(out, kept);
     }
-    x = x1;
-    y = y1;
+    memcpy(from, to, sizeof from);
   }
 }
 
@@ -126,47 +247,60 @@ static bool on_axis(const SbCadPiece *piece, double gap) {
   return piece->bulge == 0 && fabs(piece->y0) <= gap && fabs(piece->y1) <= gap;
 }
 
-// Joins the piece `next` to `last` where both are of one line or one circle.
-static bool joined(SbCadPiece *last, const SbCadPiece *next) {
-  const double same = 1e-9; // m
-  const double one = hypot(last->x1 - last->x0, last->y1 - last->y0);
-  const double other = hypot(next->x1 - next->x0, next->y1 - next->y0);
-  SbCadPiece both = {last->x0, last->y0, next->x1, next->y1, 0};
-  if (last->bulge == 0 && next->bulge == 0) {
-    const double cross = (last->x1 - last->x0) * (next->y1 - next->y0) -
-                         (last->y1 - last->y0) * (next->x1 - next->x0);
-    const double along = (last->x1 - last->x0) * (next->x1 - next->x0) +
-                         (last->y1 - last->y0) * (next->y1 - next->y0);
-    if (along <= 0 || fabs(cross) > same * fmax(one, other)) {
-      return false;
-    }
-  } else if (last->bulge * next->bulge > 0) {
-    const SbArc a = circle_of(last), b = circle_of(next);
-    // Through the three ends, which are better known than either piece's curvature.
-    both = sb_cad_arc((const double[2]){last->x0, last->y0}, (const double[2]){next->x0, next->y0},
-                      (const double[2]){next->x1, next->y1});
-    if (hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]) > same ||
-        fabs(a.radius - b.radius) > same || !(fabs(both.bulge) < 1) ||
-        both.bulge * last->bulge < 0) {
-      return false;
-    }
-  } else {
+// Joins the piece `next` to the arc `last` if both are of one circle.
+static bool join_arcs(SbCadPiece *last, const SbCadPiece *next) {
+  const SbArc a = circle_of(last), b = circle_of(next);
+  // Through the three ends, which are better known than either piece's curvature.
+  const SbCadPiece both =
+      sb_cad_arc((const double[2]){last->x0, last->y0}, (const double[2]){next->x0, next->y0},
+                 (const double[2]){next->x1, next->y1});
+  if (hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]) > CONTINUED ||
+      fabs(a.radius - b.radius) > CONTINUED || !(fabs(both.bulge) < 1) ||
+      both.bulge * last->bulge < 0) {
     return false;
   }
   *last = both;
   return true;
 }
 
-// Fills the body's profile from a chain, which it simplifies; `why` where that is none.
-static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
-  guint kept = 0;
-  for (guint i = 1; i < chain->len; i++) {
-    const SbCadPiece next = g_array_index(chain, SbCadPiece, i);
-    if (!joined(&g_array_index(chain, SbCadPiece, kept), &next)) {
-      g_array_index(chain, SbCadPiece, ++kept) = next;
+// Returns whether the straight pieces from `first` to `last` of a chain follow one line forwards
+// within SB_CAD_TOLERANCE.
+static bool is_straight(const GArray *chain, guint first, guint last) {
+  const SbCadPiece *from = &g_array_index(chain, SbCadPiece, first);
+  const SbCadPiece *to = &g_array_index(chain, SbCadPiece, last);
+  const SbCadPiece line = {from->x0, from->y0, to->x1, to->y1, 0};
+  double before = 0;
+  bool good = line.x0 != line.x1 || line.y0 != line.y1;
+  for (guint i = first + 1; good && i <= last; i++) {
+    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
+    const double at = place_on(&line, piece->x0, piece->y0, SB_CAD_TOLERANCE);
+    good = at > before && at < 1;
+    before = at;
+  }
+  return good;
+}
+
+// Joins pieces of one line or one circle, in place.
+static void simplify(GArray *chain) {
+  g_autoptr(GArray) all = g_array_copy(chain);
+  guint kept = 0, first = 0; // first: of the pieces of `all` that the last one kept consists of
+  for (guint i = 1; i < all->len; i++) {
+    const SbCadPiece *next = &g_array_index(all, SbCadPiece, i);
+    SbCadPiece *last = &g_array_index(chain, SbCadPiece, kept);
+    if (last->bulge == 0 && next->bulge == 0 && is_straight(all, first, i)) {
+      last->x1 = next->x1;
+      last->y1 = next->y1;
+    } else if (!(last->bulge * next->bulge > 0 && join_arcs(last, next))) {
+      g_array_index(chain, SbCadPiece, ++kept) = *next;
+      first = i;
     }
   }
   g_array_set_size(chain, kept + 1);
+}
+
+// Fills the body's profile from a chain, which it simplifies; `why` where that is none.
+static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
+  simplify(chain);
   if (chain->len + 1 > SB_PROFILE_MAX) {
     body->why = g_strdup_printf("its half-section has %u pieces, more than %d", chain->len,
                                 SB_PROFILE_MAX - 1);
@@ -202,8 +336,7 @@ static void half_section(SbCadBody *body, const GArray *chain, bool closed, doub
     }
   }
   if (breaks > 1 || above->len == 0) {
-    body->why = g_strdup(above->len == 0 ? "it has no area next to the axis"
-                                         : "it crosses the axis more than twice");
+    body->why = above->len > 0 ? g_strdup("it crosses the axis more than twice") : NULL;
     return;
   }
   if (breaks == 1 && begin > 0) {
@@ -231,30 +364,42 @@ static void find_extent(Outline *outline) {
   outline->high = -INFINITY;
   for (guint i = 0; i < outline->chain->len; i++) {
     const SbCadPiece *piece = &g_array_index(outline->chain, SbCadPiece, i);
-    double middle = piece->y0;
-    if (piece->bulge != 0) {
-      // The arc's own middle is enough to tell the side.
-      middle = (piece->y0 + piece->y1) / 2 - piece->bulge * (piece->x1 - piece->x0) / 2;
-    }
-    outline->low = fmin(outline->low, fmin(fmin(piece->y0, piece->y1), middle));
-    outline->high = fmax(outline->high, fmax(fmax(piece->y0, piece->y1), middle));
+    double middle[2]; // of the arc, which is enough to find the side
+    middle_of(piece, middle);
+    outline->low = fmin(outline->low, fmin(fmin(piece->y0, piece->y1), middle[1]));
+    outline->high = fmax(outline->high, fmax(fmax(piece->y0, piece->y1), middle[1]));
   }
 }
 
-void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
-  if (pieces->len > PIECES_MAX) {
-    g_ptr_array_add(cad->warnings, g_strdup_printf("%s: %u pieces, more than %d: left out", name,
-                                                   pieces->len, PIECES_MAX));
-    return;
+// Warns about open chains, whose ends are pairs of points in `ends`: the largest distance from an
+// end to the nearest other one is what `join` would have to bridge.
+static void note_open(SbCad *cad, const char *name, const GArray *ends) {
+  typedef double Point[2];
+  const Point *at = (const Point *)(void *)ends->data;
+  const guint count = ends->len;
+  double largest = 0;
+  for (guint i = 0; i < count; i++) {
+    double nearest = INFINITY;
+    for (guint k = 0; k < count; k++) {
+      nearest = k != i ? fmin(nearest, hypot(at[i][0] - at[k][0], at[i][1] - at[k][1])) : nearest;
+    }
+    largest = fmax(largest, nearest);
   }
+  char gap[SB_NUMBER_SIZE];
+  sb_cad_note(cad, "%s: %u line%s to no outline: ends are up to %s mm apart", name, count / 2,
+              count > 2 ? "s that close" : " that closes", sb_number_round(gap, 1e3 * largest, 3));
+}
+
+// Finds the closed outlines, and the open ones that end on the axis.
+static GArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
   g_autofree bool *used = g_new0(bool, pieces->len + 1);
-  g_autoptr(GArray) outlines = g_array_new(FALSE, FALSE, sizeof(Outline));
+  GArray *outlines = g_array_new(FALSE, FALSE, sizeof(Outline));
+  g_autoptr(GArray) ends = g_array_new(FALSE, FALSE, 2 * sizeof(double));
   g_array_set_clear_func(outlines, clear_outline);
   for (guint i = 0; i < pieces->len; i++) {
     // Pieces on the axis close what ends there; a centre line is no part of an outline.
     used[i] = on_axis(&g_array_index(pieces, SbCadPiece, i), gap);
   }
-  guint open = 0;
   for (guint i = 0; i < pieces->len; i++) {
     if (used[i]) {
       continue;
@@ -270,22 +415,45 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
     const SbCadPiece *first = &g_array_index(outline.chain, SbCadPiece, 0);
     const SbCadPiece *last = &g_array_index(outline.chain, SbCadPiece, outline.chain->len - 1);
     if (!outline.closed && (fabs(first->y0) > gap || fabs(last->y1) > gap)) {
-      open++;
+      const double pair[2][2] = {{first->x0, first->y0}, {last->x1, last->y1}};
+      g_array_append_vals(ends, pair, 2);
       g_array_unref(outline.chain);
       continue;
     }
     find_extent(&outline);
     g_array_append_val(outlines, outline);
   }
-  if (open > 0) {
-    g_ptr_array_add(cad->warnings, g_strdup_printf("%s: %u line%s that close%s to no outline", name,
-                                                   open, open > 1 ? "s" : "", open > 1 ? "" : "s"));
+  if (ends->len > 0) {
+    note_open(cad, name, ends);
+  }
+  return outlines;
+}
+
+// Returns whether a profile has no area: it is as thin as ends that are one point are far apart.
+static bool is_degenerate(const GArray *profile, double gap) {
+  double length = 0;
+  for (guint i = 1; i < profile->len; i++) {
+    const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i - 1), *q = p + 1;
+    length += hypot(q->x - p->x, q->r - p->r);
+  }
+  return fabs(sb_profile_area(profile)) <= gap * length;
+}
+
+void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
+  if (pieces->len > PIECES_MAX) {
+    sb_cad_note(cad, "%s: %u pieces, more than %d: left out", name, pieces->len, PIECES_MAX);
+    return;
+  }
+  guint doubled = 0, made = 0;
+  g_autoptr(GArray) single = tidied(pieces, fmin(gap, DOUBLED), &doubled);
+  g_autoptr(GArray) outlines = find_outlines(cad, single, name, gap);
+  if (doubled > 0) {
+    sb_cad_note(cad, "%s: %u piece%s drawn twice: left out", name, doubled, doubled > 1 ? "s" : "");
   }
   bool above = false;
   for (guint i = 0; i < outlines->len; i++) {
     above = above || g_array_index(outlines, Outline, i).high > gap;
   }
-  guint made = 0;
   for (guint i = 0; i < outlines->len; i++) {
     const Outline *outline = &g_array_index(outlines, Outline, i);
     if ((above && outline->high <= gap) || cad->bodies->len >= SB_CAD_BODIES_MAX) {
@@ -295,9 +463,40 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
       SbCadPiece *piece = &g_array_index(outline->chain, SbCadPiece, k);
       *piece = (SbCadPiece){piece->x0, -piece->y0, piece->x1, -piece->y1, -piece->bulge};
     }
-    g_autofree char *own = ++made > 1 ? g_strdup_printf("%s %u", name, made) : g_strdup(name);
+    g_autofree char *own = made > 0 ? g_strdup_printf("%s %u", name, made + 1) : g_strdup(name);
     SbCadBody *body = sb_cad_body_new(own);
     half_section(body, outline->chain, outline->closed, gap);
+    if (body->why == NULL && is_degenerate(body->profile, gap)) {
+      sb_cad_body_free(body);
+      continue;
+    }
+    made++;
     g_ptr_array_add(cad->bodies, body);
   }
+}
+
+void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces, double gap) {
+  g_autoptr(SbCad) found = sb_cad_new("");
+  const SbCadChoices none = {0};
+  const SbCadBody *best = NULL;
+  guint count = 0;
+  sb_cad_outlines(found, pieces, body->name, gap);
+  sb_cad_settle(found, &none);
+  for (guint i = 0; i < found->bodies->len; i++) {
+    const SbCadBody *one = found->bodies->pdata[i];
+    count += one->profile->len > 0;
+    best = best == NULL || one->revolved.volume > best->revolved.volume ? one : best;
+  }
+  if (best == NULL || best->profile->len == 0) {
+    if (body->why == NULL) {
+      body->why = g_strdup(best != NULL && best->why != NULL ? best->why : "no outline closes");
+    }
+    return;
+  }
+  if (count > 1) {
+    sb_cad_note(cad, "%s: cut into %u pieces or hollow inside; the largest outline is its profile",
+                body->name, count);
+  }
+  g_array_append_vals(body->profile, best->profile->data, best->profile->len);
+  body->closed = best->closed;
 }

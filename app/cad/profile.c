@@ -56,8 +56,7 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
   return g_steal_pointer(&points);
 }
 
-// Area of a profile, > 0 counter-clockwise; the axis closes an open one.
-static double area(const GArray *profile) {
+double sb_profile_area(const GArray *profile) {
   double sum = 0;
   for (guint i = 0; i < profile->len; i++) {
     const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
@@ -83,7 +82,7 @@ static void reverse(GArray *profile, bool closed) {
 }
 
 void sb_profile_turn(GArray *points, bool closed) {
-  if (area(points) < 0) {
+  if (sb_profile_area(points) < 0) {
     reverse(points, closed);
   }
 }

@@ -22,6 +22,10 @@
 // points. Orientation and crossings are not checked (sb_profile_check()).
 GArray *sb_profile_parse(const char *text, bool *closed, GError **error);
 
+// Returns the area [m2] that the points (of SbProfilePoint) bound with the axis or, closed, by
+// themselves: > 0 counter-clockwise. The piece from the last point to the first is the last bulge.
+double sb_profile_area(const GArray *points);
+
 // Orders the points (of SbProfilePoint) counter-clockwise in the (x, r) plane, as SbProfile
 // requires: reverses them in place, with their bulges, if they are clockwise. `closed`, as
 // sb_profile_parse() sets it: a piece from the last point to the first closes the outline; else the

@@ -78,7 +78,7 @@ static gboolean on_second(gpointer data) {
 }
 
 // What the helper prints; NULL with an error.
-static char *run_helper(const char *path, double angle, GError **error) {
+static char *run_helper(const char *path, const SbCadChoices *choices, GError **error) {
   g_autofree char *program = helper_path();
   if (program == NULL) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
@@ -86,14 +86,23 @@ static char *run_helper(const char *path, double angle, GError **error) {
                 "then ./run where the sources are, or save a DXF of the section instead");
     return NULL;
   }
-  char number[SB_NUMBER_SIZE];
+  // A plane off those in which ports and flats are drawn.
+  const double angle = choices->angle != NULL ? *choices->angle : 0.658;
+  const double unknown[3] = {NAN, NAN, NAN};
+  const double *axis = choices->axis != NULL ? choices->axis : unknown;
+  const double *at = choices->through != NULL ? choices->through : unknown;
+  char number[7][SB_NUMBER_SIZE];
+  const double value[7] = {angle, axis[0], axis[1], axis[2], at[0], at[1], at[2]};
+  for (int i = 0; i < 7; i++) {
+    sb_number_format(number[i], value[i]);
+  }
   g_autofree char *whole = g_canonicalize_filename(path, NULL);
   g_autoptr(GMainContext) context = g_main_context_new();
   g_main_context_push_thread_default(context);
   Helper helper = {.loop = g_main_loop_new(context, FALSE)};
-  helper.process =
-      g_subprocess_new(G_SUBPROCESS_FLAGS_STDOUT_PIPE | G_SUBPROCESS_FLAGS_STDERR_SILENCE, error,
-                       program, whole, sb_number_format(number, angle), NULL);
+  helper.process = g_subprocess_new(
+      G_SUBPROCESS_FLAGS_STDOUT_PIPE | G_SUBPROCESS_FLAGS_STDERR_SILENCE, error, program, whole,
+      number[0], number[1], number[2], number[3], number[4], number[5], number[6], NULL);
   if (helper.process != NULL) {
     GSource *second = g_timeout_source_new_seconds(1);
     g_source_set_callback(second, on_second, &helper, NULL);
@@ -135,44 +144,10 @@ static bool read_numbers(double *out, int count, const char *text) {
   return *text == '\0';
 }
 
-// The outlines of one body's half-section become its profile: the one of most area.
-static void finish_body(SbCad *cad, SbCadBody *body, GPtrArray *outlines) {
-  g_autoptr(SbCad) found = sb_cad_new("");
-  for (guint i = 0; i < outlines->len; i++) {
-    sb_cad_outlines(found, outlines->pdata[i], body->name, 1e-8);
-  }
-  const SbCadChoices none = {0};
-  SbCadBody *best = NULL;
-  guint count = 0;
-  for (guint i = 0; i < found->bodies->len; i++) {
-    SbCadBody *one = found->bodies->pdata[i];
-    sb_cad_body_settle(one, &none);
-    count += one->profile->len > 0;
-    if (best == NULL || one->revolved.volume > best->revolved.volume) {
-      best = one;
-    }
-  }
-  if (best == NULL || best->profile->len == 0) {
-    if (body->why == NULL) {
-      body->why = g_strdup(best != NULL && best->why != NULL ? best->why : "no outline closes");
-    }
-    return;
-  }
-  if (count > 1) {
-    g_ptr_array_add(
-        cad->warnings,
-        g_strdup_printf(
-            "%s: cut into %u pieces or hollow inside; the largest outline is used for it",
-            body->name, count));
-  }
-  g_array_append_vals(body->profile, best->profile->data, best->profile->len);
-  body->closed = best->closed;
-}
-
 // Fills `cad` from the helper's lines; false where they are not complete.
 static bool take_text(SbCad *cad, char *text, GError **error) {
   g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
-  g_autoptr(GPtrArray) outlines = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)); // of `body`
   SbCadBody *body = NULL;
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
@@ -183,20 +158,14 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
     }
     const bool end = strcmp(line, "end") == 0;
     if ((end || g_str_has_prefix(line, "body ")) && body != NULL) {
-      finish_body(cad, body, outlines);
-      g_ptr_array_set_size(outlines, 0);
+      sb_cad_section(cad, body, pieces, 1e-8);
+      g_array_set_size(pieces, 0);
     }
     if (end) {
       return true;
     }
     if (g_str_has_prefix(line, "axis ") && read_numbers(n, 6, line + 5)) {
-      char shown[6][SB_NUMBER_SIZE];
-      for (int i = 0; i < 6; i++) {
-        const double value = i < 3 ? 1e3 * n[i] : n[i];
-        sb_number_round(shown[i], fabs(value) < 1e-9 ? 0 : value, 6);
-      }
-      cad->axis = g_strdup_printf("through %s, %s, %s mm along %s, %s, %s", shown[0], shown[1],
-                                  shown[2], shown[3], shown[4], shown[5]);
+      cad->axis = sb_cad_axis_text(n, n + 3);
     } else if (g_str_has_prefix(line, "body ")) {
       g_autofree char *name = sb_printable(line + 5, strlen(line + 5));
       body = sb_cad_body_new(name);
@@ -209,12 +178,9 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
                               {{n[4], n[5], n[6]}, {n[5], n[7], n[8]}, {n[6], n[8], n[9]}}};
     } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {
       body->why = sb_printable(line + 4, strlen(line + 4));
-    } else if (body != NULL && strcmp(line, "outline") == 0) {
-      g_ptr_array_add(outlines, g_array_new(FALSE, FALSE, sizeof(SbCadPiece)));
-    } else if (outlines->len > 0 && g_str_has_prefix(line, "piece ") &&
-               read_numbers(n, 5, line + 6)) {
+    } else if (g_str_has_prefix(line, "piece ") && read_numbers(n, 5, line + 6)) {
       const SbCadPiece piece = {n[0], n[1], n[2], n[3], n[4]};
-      g_array_append_val((GArray *)outlines->pdata[outlines->len - 1], piece);
+      g_array_append_val(pieces, piece);
     }
   }
   g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
@@ -225,13 +191,13 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error) {
   GError *problem = NULL;
-  g_autofree char *told = run_helper(path, choices->angle, &problem);
+  g_autofree char *told = run_helper(path, choices, &problem);
   SbCad *cad = told != NULL ? sb_cad_new("STEP") : NULL;
   if (cad != NULL && !take_text(cad, told, &problem)) {
     g_clear_pointer(&cad, sb_cad_free);
   }
-  for (guint i = 0; cad != NULL && i < cad->bodies->len; i++) {
-    sb_cad_body_settle(cad->bodies->pdata[i], choices);
+  if (cad != NULL) {
+    sb_cad_settle(cad, choices);
   }
   if (problem != NULL) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: %s", shown, problem->message);

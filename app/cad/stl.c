@@ -3,6 +3,7 @@
 
 #include "app/base/reader.h"
 #include "app/base/unit.h"
+#include "app/cad/cad_private.h"
 
 #include <math.h>
 #include <string.h>
@@ -76,16 +77,23 @@ static unsigned nearest(const Grid *grid, const double *vertices, unsigned count
   return best;
 }
 
-static double weld_tolerance(const double *corners, gsize count) {
-  double diagonal = 0.0, largest = 0.0;
+static void extent(const double *points, gsize count, double low[3], double high[3]) {
   for (int k = 0; k < 3; k++) {
-    double low = INFINITY, high = -INFINITY;
-    for (gsize i = 0; i < count; i++) {
-      low = fmin(low, corners[3 * i + (gsize)k]);
-      high = fmax(high, corners[3 * i + (gsize)k]);
-    }
-    diagonal = hypot(diagonal, high - low);
-    largest = fmax(largest, fmax(fabs(low), fabs(high)));
+    low[k] = INFINITY;
+    high[k] = -INFINITY;
+  }
+  for (gsize i = 0; i < 3 * count; i++) {
+    low[i % 3] = fmin(low[i % 3], points[i]);
+    high[i % 3] = fmax(high[i % 3], points[i]);
+  }
+}
+
+static double weld_tolerance(const double *corners, gsize count) {
+  double diagonal = 0.0, largest = 0.0, low[3], high[3];
+  extent(corners, count, low, high);
+  for (int k = 0; k < 3; k++) {
+    diagonal = hypot(diagonal, high[k] - low[k]);
+    largest = fmax(largest, fmax(fabs(low[k]), fabs(high[k])));
   }
   return fmax(WELD * diagonal, WELD_SINGLE * largest);
 }
@@ -266,13 +274,7 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
                       const char *name, GError **error) {
   *out = (SbStl){0};
   double scale;
-  g_autofree char *one = g_strdup_printf("1 %s", unit);
-  gboolean known = sb_quantity_parse(&scale, one, "m", "mm", error);
-  if (!known) {
-    return FALSE;
-  }
-  if (!(scale > 0.0)) {
-    sb_app_error_input(error, "%s: '%s' is not a unit of length", name, unit);
+  if (!sb_cad_unit(&scale, unit, error)) {
     return FALSE;
   }
   // Binary files may start with "solid" too: their length tells.
@@ -327,6 +329,10 @@ gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **er
     g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
   }
   return ok;
+}
+
+void sb_stl_extent(const SbStl *stl, double low[3], double high[3]) {
+  extent(stl->vertices, stl->vertex_count, low, high);
 }
 
 void sb_stl_clear(SbStl *stl) {

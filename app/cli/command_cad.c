@@ -11,7 +11,7 @@
 #include <string.h>
 
 typedef struct {
-  char *unit, *axis, *angle, *shift, *density, *scene, *output, *json, *plot;
+  char *unit, *axis, *through, *angle, *join, *shift, *density, *scene, *output, *json, *plot;
   char **parts; // NAME=BODY
   gboolean flip;
   SbCadSettings settings;
@@ -32,7 +32,8 @@ static int read_options(Options *options) {
   const struct {
     const char *name, *text;
   } named[] = {{"unit", options->unit},       {"axis", options->axis},
-               {"angle", options->angle},     {"shift", options->shift},
+               {"through", options->through}, {"angle", options->angle},
+               {"join", options->join},       {"shift", options->shift},
                {"density", options->density}, {"flip", options->flip ? "yes" : NULL}};
   for (size_t i = 0; i < G_N_ELEMENTS(named); i++) {
     if (named[i].text != NULL &&
@@ -82,13 +83,11 @@ static void print_body(const SbCadBody *body, guint number, const int *chosen) {
     sb_cli_line("Half-section", text);
     return;
   }
-  if (body->measured) {
-    const double off = body->revolved.volume / body->solid.volume - 1;
-    g_autofree char *text =
-        g_strdup_printf("%u points; revolved it has %s %% %s volume", body->profile->len,
-                        sb_number_round(share, 100 * fabs(off), 2), off < 0 ? "less" : "more");
-    sb_cli_line("Half-section", text);
-  }
+  const double off = body->revolved.volume / body->solid.volume - 1;
+  g_autofree char *section =
+      g_strdup_printf("%u points; revolved it has %s %% %s volume", body->profile->len,
+                      sb_number_round(share, 100 * fabs(off), 2), off < 0 ? "less" : "more");
+  sb_cli_line("Half-section", section);
   for (guint i = 0; i < body->features->len; i++) {
     const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, i);
     char depth[SB_NUMBER_SIZE];
@@ -106,7 +105,7 @@ static void print_body(const SbCadBody *body, guint number, const int *chosen) {
 }
 
 static void print_bodies(const SbCad *cad, const int *chosen) {
-  printf("%s%s%s, x along %s; lengths in mm\n", cad->format, cad->unit != NULL ? " in " : "",
+  printf("%s%s%s, x on the axis %s; lengths in mm\n", cad->format, cad->unit != NULL ? " in " : "",
          cad->unit != NULL ? cad->unit : "", cad->axis);
   for (guint i = 0; i < cad->bodies->len; i++) {
     print_body(cad->bodies->pdata[i], i, chosen);
@@ -257,10 +256,15 @@ int sb_command_cad(int argc, char **argv) {
       {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit,
        "Unit of a DXF; default the file's; of an STL, default guessed by its size", "UNIT"},
       {"axis", 0, 0, G_OPTION_ARG_FILENAME, &options.axis,
-       "Line of a DXF that bodies turn about, default its centre line, else x; axis of an STL",
-       "x|y|z"},
+       "Direction of the axis; default found, in a DXF the longest centre line, else x",
+       "x|y|z|X,Y,Z"},
+      {"through", 0, 0, G_OPTION_ARG_FILENAME, &options.through,
+       "A point of the axis, in mm unless it has a unit; default found", "X,Y,Z"},
       {"angle", 0, 0, G_OPTION_ARG_FILENAME, &options.angle,
-       "Half-plane that cuts the bodies of a STEP; default 37.7 deg, off most ports", "ANGLE"},
+       "Half-plane that cuts the bodies; default 37.7 deg for a STEP, a far vertex for an STL",
+       "ANGLE"},
+      {"join", 0, 0, G_OPTION_ARG_FILENAME, &options.join,
+       "Largest gap in the outlines of a DXF that is closed; default 1um", "LENGTH"},
       {"flip", 0, 0, G_OPTION_ARG_NONE, &options.flip,
        "Reverses x, which must point out of the canister", NULL},
       {"shift", 0, 0, G_OPTION_ARG_FILENAME, &options.shift, "Added to x afterwards", "LENGTH"},

@@ -11,8 +11,9 @@
 // Two grooves for equal rings: widths and floors within this, relative.
 static const double ALIKE = 0.02;
 
-// Beyond this a body is not what its half-section makes, revolved: mass and moments are told apart.
-static const double REVOLVED = 1e-3;
+// Beyond this relative difference of the volumes, mass and moments are those of the file's body
+// and not of its revolved half-section. The half-section of a STEP is exact to about 1e-8.
+static const double REVOLVED = 1e-6;
 
 int sb_cad_part_of(const char *name) {
   g_autofree char *plain = g_ascii_strdown(name, -1);
@@ -28,13 +29,11 @@ int sb_cad_part_of(const char *name) {
 // ---- Choices ----
 
 void sb_cad_settings_init(SbCadSettings *settings) {
-  // A plane off those in which ports and flats are drawn; acetal, as in piston-profiles.valve.
-  *settings = (SbCadSettings){.read = {.angle = 0.658}, .density = 1410};
+  *settings = (SbCadSettings){.density = 1410}; // acetal, as in piston-profiles.valve
 }
 
 void sb_cad_settings_clear(SbCadSettings *settings) {
   g_free(settings->unit);
-  g_free(settings->axis);
   for (int i = 0; i < SB_CAD_PART_COUNT; i++) {
     g_free(settings->part[i]);
   }
@@ -44,6 +43,22 @@ void sb_cad_settings_clear(SbCadSettings *settings) {
 static bool refuse(GError **error, const char *says) {
   g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", says);
   return false;
+}
+
+// Reads X,Y,Z: numbers, or lengths in the unit that follows each or all, else in mm.
+static bool read_vector(double out[3], const char *text, bool lengths, GError **error) {
+  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
+  double number;
+  bool good = g_strv_length(parts) == 3;
+  const char *unit = good ? g_strstrip(parts[2]) + sb_number_read(&number, parts[2]) : "";
+  for (int i = 0; good && i < 3; i++) {
+    const bool bare = sb_number_parse(&out[i], g_strstrip(parts[i]));
+    g_autofree char *one = g_strdup_printf("%s %s", parts[i], !bare ? "" : *unit ? unit : "mm");
+    good = lengths ? sb_quantity_parse(&out[i], g_strstrip(one), "m", "mm", NULL) : bare;
+  }
+  good = good && (lengths || out[0] != 0 || out[1] != 0 || out[2] != 0);
+  return good || refuse(error, lengths ? "three lengths X,Y,Z, such as 0,0,5mm"
+                                       : "x, y, z or a direction X,Y,Z, not zero");
 }
 
 bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, GError **error) {
@@ -60,18 +75,30 @@ bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, 
     return true;
   }
   if (strcmp(name, "axis") == 0) {
-    g_free(settings->axis);
-    settings->axis = g_strdup(text);
     settings->read.axis = settings->axis;
     const bool one = strlen(text) == 1 && strchr("xyz", text[0]) != NULL;
-    return one || refuse(error, "x or y, or z of an STL");
+    for (int i = 0; i < 3; i++) {
+      settings->axis[i] = text[0] == 'x' + i;
+    }
+    return one || read_vector(settings->axis, text, false, error);
+  }
+  if (strcmp(name, "through") == 0) {
+    settings->read.through = settings->through;
+    return read_vector(settings->through, text, true, error);
+  }
+  if (strcmp(name, "join") == 0) {
+    const double most = 1e-3;
+    return sb_quantity_parse(&settings->read.join, text, "m", "mm", error) &&
+           ((settings->read.join > 0 && settings->read.join <= most) ||
+            refuse(error, "above 0, up to 1 mm"));
   }
   if (strcmp(name, "flip") == 0) {
     settings->read.flip = strcmp(text, "yes") == 0;
     return settings->read.flip || strcmp(text, "no") == 0 || refuse(error, "yes or no");
   }
   if (strcmp(name, "angle") == 0) {
-    return sb_quantity_parse(&settings->read.angle, text, "rad", "deg", error);
+    settings->read.angle = &settings->angle;
+    return sb_quantity_parse(&settings->angle, text, "rad", "deg", error);
   }
   if (strcmp(name, "shift") == 0) {
     return sb_quantity_parse(&settings->read.shift, text, "m", "mm", error);

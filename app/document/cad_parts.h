@@ -16,21 +16,23 @@ int sb_cad_part_of(const char *name);
 
 // Choices of the user. Initialised by sb_cad_settings_init(), freed by sb_cad_settings_clear().
 typedef struct {
-  SbCadChoices read;             // for sb_cad_read(); its strings are `unit` and `axis` below
-  char *unit, *axis;             // NULL: not chosen
+  SbCadChoices read;             // for sb_cad_read(); points to `unit` and the numbers below
+  char *unit;                    // NULL: not chosen
+  double axis[3], through[3];    // direction and a point [m] of the axis
+  double angle;                  // [rad]
   double density;                // of the parts [kg/m3]
   char *part[SB_CAD_PART_COUNT]; // number (from 1) or name of the body; NULL: found by its name
 } SbCadSettings;
 
-// Sets the defaults: a density of 1410 kg/m3 (acetal) and an angle of 37.7 degrees.
+// Sets the default: a density of 1410 kg/m3 (acetal). Settings may not be copied.
 void sb_cad_settings_init(SbCadSettings *settings);
 
 // Frees the strings.
 void sb_cad_settings_clear(SbCadSettings *settings);
 
 // Sets one choice from text. `name` is an option of `sealbench cad` without dashes: "unit", "axis",
-// "angle", "flip" ("yes", "no"), "shift", "density" or a part's name. Returns false with
-// SB_APP_ERROR_INPUT for an unknown name or a wrong text.
+// "through", "angle", "join", "flip" ("yes", "no"), "shift", "density" or a part's name. Returns
+// false with SB_APP_ERROR_INPUT for an unknown name or a wrong text.
 bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, GError **error);
 
 // Writes the index into cad->bodies for each part (-1: none): the chosen body, else the body whose

@@ -84,7 +84,7 @@ def bodies(folder):
         read = subprocess.run([program, 'cad', f'{name}.stl', '--json', '-'], cwd=folder, text=True,
                               stdout=subprocess.PIPE, stderr=subprocess.PIPE, check=True)
         found = json.loads(read.stdout)
-        assert found['axis'] == "the file's x" and found['unit'] == 'mm'
+        assert found['axis'] == 'along 1, 0, 0' and found['unit'] == 'mm'
         volume[name] = found['bodies'][0]['volume_m3']
     torus = 2 * math.pi ** 2 * (1.42e-3 + 0.805e-3) * 0.805e-3 ** 2
     assert 0.995 < volume['r.free'] / torus < 1, volume

@@ -357,7 +357,7 @@ static void test_mesh(void) {
     g_autoptr(SbCad) cad = parse_mesh(mesh, kind == 0 ? &none : &inch, &error);
     g_assert_no_error(error);
     g_assert_cmpstr(cad->unit, ==, kind == 0 ? "mm" : "inch");
-    g_assert_cmpstr(cad->axis, ==, "the file's z");
+    g_assert_cmpstr(cad->axis, ==, "along 0, 0, 1");
     for (guint i = 0; i < cad->warnings->len; i++) {
       g_test_message("%s", (const char *)cad->warnings->pdata[i]);
     }
@@ -383,6 +383,67 @@ static void test_mesh(void) {
   }
 }
 
+// Appends the facets of a mesh to another, scaled about the point (10, -3, 3) that shaft_mesh()
+// turns about, moved along z, and inside out where `scale` is negative.
+static void add_mesh(GByteArray *mesh, const GByteArray *other, double scale, double along) {
+  static const double about[3] = {10, -3, 3};
+  guint32 count[2];
+  memcpy(&count[0], mesh->data + 80, 4);
+  memcpy(&count[1], other->data + 80, 4);
+  for (guint32 f = 0; f < count[1]; f++) {
+    guint8 facet[50];
+    memcpy(facet, other->data + 84 + 50 * (gsize)f, sizeof facet);
+    for (int c = 0; c < 3; c++) {
+      float v[3];
+      memcpy(v, other->data + 84 + 50 * (gsize)f + 12 + 12 * (scale < 0 ? 2 - c : c), sizeof v);
+      for (int k = 0; k < 3; k++) {
+        v[k] = (float)(about[k] + fabs(scale) * ((double)v[k] - about[k]) + (k == 2) * along);
+      }
+      memcpy(facet + 12 + 12 * c, v, sizeof v);
+    }
+    g_byte_array_append(mesh, facet, sizeof facet);
+  }
+  count[0] += count[1];
+  memcpy(mesh->data + 80, &count[0], 4);
+}
+
+// Each shell is a body with its own volume; a cavity belongs to the body around it, whatever the
+// half-plane shows of it.
+static void test_mesh_shells(void) {
+  const SbCadChoices none = {.unit = "mm"};
+  const double angle = 0.4, through[3] = {10e-3, -3e-3, 0}, axis[3] = {0, 0, 2};
+  const SbCadChoices given = {.unit = "mm", .angle = &angle, .through = through, .axis = axis};
+  g_autoptr(GByteArray) mesh = shaft_mesh(1, false), slotted = shaft_mesh(1, true);
+  g_autoptr(GByteArray) one = shaft_mesh(1, false);
+  GError *error = NULL;
+  add_mesh(mesh, one, 1, 8);
+  add_mesh(mesh, one, -0.4, 8);
+  g_autoptr(SbCad) alone = parse_mesh(one, &none, &error);
+  g_autoptr(SbCad) cad = parse_mesh(mesh, &none, &error);
+  g_assert_no_error(error);
+  g_assert_cmpuint(cad->bodies->len, ==, 2);
+  const SbSolid *whole = &((SbCadBody *)alone->bodies->pdata[0])->solid;
+  for (int i = 0; i < 2; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    g_assert_true(body->measured);
+    g_assert_cmpfloat_with_epsilon(body->solid.volume / whole->volume,
+                                   i == 0 ? 1 : 1 - 0.4 * 0.4 * 0.4, 1e-5);
+    g_assert_cmpfloat_with_epsilon(body->solid.centre[0], i == 0 ? 3e-3 : 11e-3, 1e-7);
+    g_assert_cmpfloat_with_epsilon(body->solid.inertia[0][0] / whole->inertia[0][0],
+                                   i == 0 ? 1 : 1 - pow(0.4, 5), 1e-5);
+    g_assert_cmpfloat_with_epsilon(body->revolved.volume / whole->volume, 1, 0.01);
+  }
+  // The half-plane through a slot, and that next to it; the mass is the same.
+  g_autoptr(SbCad) next = parse_mesh(slotted, &none, &error);
+  g_autoptr(SbCad) slot = parse_mesh(slotted, &given, &error);
+  g_assert_no_error(error);
+  const SbCadBody *a = next->bodies->pdata[0], *b = slot->bodies->pdata[0];
+  g_assert_cmpfloat_with_epsilon(a->solid.volume / b->solid.volume, 1, 1e-9);
+  g_assert_cmpfloat_with_epsilon(a->revolved.volume / whole->volume, 1, 0.01);
+  g_assert_cmpfloat_with_epsilon(b->revolved.volume / whole->volume, 0.36, 0.01);
+  g_assert_cmpstr(slot->axis, ==, "through 10, -3, 0 mm along 0, 0, 1");
+}
+
 // What is no body of revolution is told; a size that could be two units is asked about; broken
 // meshes are refused.
 static void test_mesh_refused(void) {
@@ -391,11 +452,11 @@ static void test_mesh_refused(void) {
   g_autoptr(GByteArray) slotted = shaft_mesh(1, true), small = shaft_mesh(0.2, false);
   g_autoptr(SbCad) cad = parse_mesh(slotted, &none, &error);
   g_assert_no_error(error);
-  g_assert_true(g_str_has_prefix(cad->warnings->pdata[1], "it is not a body of revolution"));
+  g_assert_true(g_str_has_prefix(cad->warnings->pdata[1], "Stem-centre: not a body of revolution"));
   g_assert_null(parse_mesh(small, &none, &error));
   g_assert_cmpstr(error->message, ==,
                   "parts/Stem-centre.stl: an STL file states no unit, and its longest side of 1.2 "
-                  "is in mm 1.2 mm, in inch 30.5 mm: specify it with --unit");
+                  "is 1.2 mm in mm, 12 mm in cm, 30.5 mm in inch: specify it with --unit");
   g_clear_error(&error);
   // A facet is missing: open.
   const guint32 fewer = slotted->data[80] - 1U + 256U * slotted->data[81];
@@ -508,6 +569,252 @@ static void test_curves(void) {
   g_assert_cmpfloat_with_epsilon(1e9 * quarter->solid.volume / (2 * M_PI * middle * area), 1, 1e-9);
 }
 
+// ---- Habits of other programs ----
+
+// The square 2 <= x <= 4, 1 <= y <= 3 as four lines, of which `first` is written first.
+static void put_square(GString *dxf, const char *layer, int first) {
+  static const double corner[4][2] = {{2, 1}, {4, 1}, {4, 3}, {2, 3}};
+  for (int i = 0; i < 4; i++) {
+    const double *p = corner[(first + i) % 4], *q = corner[(first + i + 1) % 4];
+    put_line(dxf, layer, p[0], p[1], q[0], q[1]);
+  }
+}
+
+static void check_square(const SbCad *cad, guint warnings) {
+  g_assert_cmpuint(cad->bodies->len, ==, 1);
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpstr(body->why, ==, NULL);
+  g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 8 * 2), 1, 1e-9);
+  g_assert_cmpuint(cad->warnings->len, ==, warnings);
+}
+
+// Only entities in object coordinates are mirrored by an extrusion towards -z; the minor axis of an
+// ellipse is reversed by it.
+static void test_coordinates(void) {
+  const SbCadChoices none = {0};
+  // Type and flags, and the middle of the body where it is drawn with its own middle at x = 5 mm.
+  static const struct {
+    const char *type;
+    double flags, middle;
+  } cases[] = {{"ELLIPSE", 0, 5}, {"CIRCLE", 0, -5},   {"LWPOLYLINE", 1, -5},
+               {"LINE", 0, 5},    {"POLYLINE", 1, -5}, {"POLYLINE", 1 | 8, 5}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    static const double corner[5][2] = {{4, 2}, {6, 2}, {6, 4}, {4, 4}, {4, 2}};
+    const bool line = strcmp(cases[i].type, "LINE") == 0;
+    const bool poly = strcmp(cases[i].type, "POLYLINE") == 0;
+    const bool light = strcmp(cases[i].type, "LWPOLYLINE") == 0;
+    g_autoptr(GString) dxf = begin(4);
+    for (int k = 0; k < (line ? 4 : 1); k++) {
+      put(dxf, 0, "%s", cases[i].type);
+      put(dxf, 70, "%g", cases[i].flags);
+      put(dxf, 230, "-1");
+      if (line) {
+        put(dxf, 10, "%g", corner[k][0]);
+        put(dxf, 20, "%g", corner[k][1]);
+        put(dxf, 11, "%g", corner[k + 1][0]);
+        put(dxf, 21, "%g", corner[k + 1][1]);
+      } else if (!poly && !light) {
+        put(dxf, 10, "5");
+        put(dxf, 20, "3");
+        put(dxf, 40, "%g", i == 0 ? 0.5 : 1);
+        put(dxf, 11, "2");
+        put(dxf, 21, "0");
+        put(dxf, 41, "0");
+        put(dxf, 42, "6.283185307179586");
+      } else {
+        put(dxf, 30, "0");
+      }
+      for (int c = 0; (poly || light) && c < 4; c++) {
+        if (poly) {
+          put(dxf, 0, "VERTEX");
+          put(dxf, 70, "32");
+        }
+        put(dxf, 10, "%g", corner[c][0]);
+        put(dxf, 20, "%g", corner[c][1]);
+      }
+      if (poly) {
+        put(dxf, 0, "SEQEND");
+      }
+    }
+    end(dxf);
+    g_autoptr(SbCad) cad = parse(dxf, &none);
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpfloat_with_epsilon(body->solid.centre[0], 1e-3 * cases[i].middle, 1e-10);
+    const double area = i == 0 ? 2 * M_PI : i == 1 ? M_PI : 4; // about r = 3 mm, by Pappus
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (6 * M_PI * area), 1, 1e-4);
+  }
+  // Half an ellipse from its major axis on, anticlockwise about the extrusion: below the centre.
+  for (int up = -1; up <= 1; up += 2) {
+    g_autoptr(GString) dxf = begin(4);
+    put(dxf, 0, "ELLIPSE");
+    put(dxf, 10, "5");
+    put(dxf, 20, "3");
+    put(dxf, 11, "2");
+    put(dxf, 230, "%d", up);
+    put(dxf, 40, "0.5");
+    put(dxf, 42, "3.141592653589793");
+    put_line(dxf, "0", 3, 3, 7, 3);
+    end(dxf);
+    g_autoptr(SbCad) cad = parse(dxf, &none);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    const double middle = 3 + up * 4 / (3 * M_PI);
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (2 * M_PI * middle * M_PI), 1, 1e-4);
+  }
+}
+
+// A spline is divided at its knots, so corners are exact, also where a span has no length; what is
+// not in model space, not seen or has only fit points is named.
+static void test_spline_corners(void) {
+  const SbCadChoices none = {0};
+  static const double corner[6][2] = {{2, 1}, {4, 1}, {4, 1}, {4, 3}, {2, 3}, {2, 1}};
+  for (int degree = 1; degree <= 3; degree++) {
+    g_autoptr(GString) dxf = begin(4);
+    put(dxf, 0, "SPLINE");
+    put(dxf, 71, "%d", degree);
+    for (int k = 0; k < 6; k++) {
+      for (int i = 0; i < degree + (k == 0 || k == 5); i++) {
+        put(dxf, 40, "%g", 0.7 * k * k); // of unequal length
+      }
+    }
+    for (int i = 0; i <= 5 * degree; i++) {
+      const double *p = corner[i / degree], *q = corner[MIN(i / degree + 1, 5)];
+      const double t = i % degree / (double)degree;
+      put(dxf, 10, "%.15g", p[0] + t * (q[0] - p[0]));
+      put(dxf, 20, "%.15g", p[1] + t * (q[1] - p[1]));
+    }
+    end(dxf);
+    g_autoptr(SbCad) cad = parse(dxf, &none);
+    check_square(cad, 0);
+  }
+}
+
+static void test_left_out(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GString) dxf = begin(4);
+  const gsize at = (gsize)(strstr(dxf->str, "  0\r\nSECTION\r\n  2\r\nENTITIES") - dxf->str);
+  g_autoptr(GString) tables = g_string_new(NULL);
+  put(tables, 0, "SECTION");
+  put(tables, 2, "TABLES");
+  for (int i = 0; i < 2; i++) {
+    put(tables, 0, "LAYER");
+    put(tables, 2, "%s", i == 0 ? "Sketch" : "FRAME");
+    put(tables, i == 0 ? 62 : 70, "%d", i == 0 ? -7 : 1);
+  }
+  put(tables, 0, "ENDSEC");
+  g_string_insert(dxf, (gssize)at, tables->str);
+  put_square(dxf, "part", 0);
+  for (int i = 0; i < 4; i++) {
+    put_line(dxf, i == 0 ? "SKETCH" : i == 1 ? "frame" : "part", 0, 0, 9, 9);
+    put(dxf, i == 2 ? 67 : 60, "%d", i >= 2);
+  }
+  put(dxf, 0, "SPLINE");
+  put(dxf, 8, "part");
+  put(dxf, 71, "3");
+  put(dxf, 11, "1");
+  put(dxf, 21, "1");
+  put(dxf, 0, "CIRCLE");
+  put(dxf, 40, "1");
+  put(dxf, 210, "1");
+  put(dxf, 230, "0");
+  end(dxf);
+  g_autoptr(SbCad) cad = parse(dxf, &none);
+  check_square(cad, 1);
+  g_assert_cmpstr(cad->warnings->pdata[0], ==,
+                  "left out: 1 CIRCLE out of the drawing's plane, 1 LINE in paper space, 1 LINE on "
+                  "layer 'SKETCH', which is off, 1 LINE on layer 'frame', which is frozen, 1 LINE "
+                  "that is invisible, 1 SPLINE with fit points only");
+}
+
+// Lines drawn twice, also in part and the other way round, lines of no length, gaps, and circles
+// that touch the axis.
+static void test_untidy(void) {
+  const SbCadChoices none = {0}, wide = {.join = 0.05e-3};
+  for (int kind = 0; kind < 4; kind++) {
+    g_autoptr(GString) dxf = begin(4);
+    if (kind == 3) {
+      put_line(dxf, "0", 2, 1, 4, 1);
+      put_line(dxf, "0", 4, 1.04, 4, 3);
+      put_line(dxf, "0", 3.97, 3, 2, 3);
+      put_line(dxf, "0", 2, 3, 2, 1);
+    } else {
+      put_square(dxf, "0", kind);
+    }
+    if (kind == 0) {
+      put_line(dxf, "0", 4, 3, 4, 1);
+      put_line(dxf, "0", 4, 3, 4, 3);
+    } else if (kind == 1) { // the part of one side, and one that is longer than a side's half
+      put_line(dxf, "0", 2, 2.5, 2, 1);
+      put_line(dxf, "0", 4, 2, 4, 3);
+      put_line(dxf, "0", 4, 2.5, 4, 1);
+    }
+    end(dxf);
+    GError *error = NULL;
+    if (kind == 3) {
+      g_assert_null(sb_cad_parse_dxf(dxf->str, dxf->len, "a.dxf", &none, &error));
+      g_assert_nonnull(strstr(error->message, "ends are up to 0.04 mm apart"));
+      g_error_free(error);
+      g_autoptr(SbCad) cad = parse(dxf, &wide);
+      g_assert_cmpuint(cad->bodies->len, ==, 1);
+      const SbCadBody *body = cad->bodies->pdata[0];
+      g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 16), 1, 0.03);
+    } else {
+      g_autoptr(SbCad) cad = parse(dxf, &none);
+      check_square(cad, kind < 2);
+    }
+  }
+  for (int twice = 0; twice < 2; twice++) {
+    g_autoptr(GString) dxf = begin(4);
+    for (int i = 0; i <= twice; i++) {
+      put(dxf, 0, i == 0 ? "CIRCLE" : "ARC");
+      put(dxf, 10, "5");
+      put(dxf, 20, "3");
+      put(dxf, 40, "3");
+      put(dxf, 50, "30");
+      put(dxf, 51, "300");
+    }
+    end(dxf);
+    g_autoptr(SbCad) cad = parse(dxf, &none);
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpstr(body->why, ==, NULL);
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (2 * M_PI * 3 * M_PI * 9), 1, 1e-6);
+  }
+}
+
+// All values of $INSUNITS, and a text whose lines end
+// in a carriage return alone.
+static void test_units(void) {
+  static const double unit[] = {25.4e-3,      0.3048,        1609.344,
+                                1e-3,         1e-2,          1,
+                                1e3,          25.4e-9,       25.4e-6,
+                                0.9144,       1e-10,         1e-9,
+                                1e-6,         0.1,           10,
+                                100,          1e9,           1.495979e11,
+                                9.46073e15,   3.085678e16,   1200 / 3937.0,
+                                100 / 3937.0, 3600 / 3937.0, 5280 * 1200 / 3937.0};
+  const SbCadChoices none = {0};
+  for (size_t i = 0; i < G_N_ELEMENTS(unit); i++) {
+    g_autoptr(GString) dxf = begin((int)i + 1);
+    const double size = 1e-3 / unit[i];
+    for (int k = 0; k < 4; k++) {
+      static const double corner[5][2] = {{0, 1}, {2, 1}, {2, 3}, {0, 3}, {0, 1}};
+      put_line(dxf, "0", size * corner[k][0], size * corner[k][1], size * corner[k + 1][0],
+               size * corner[k + 1][1]);
+    }
+    end(dxf);
+    if (i % 2 == 0) {
+      g_string_replace(dxf, "\n", "", 0);
+    }
+    g_autoptr(SbCad) cad = parse(dxf, &none);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_test_message("%s", cad->unit);
+    // udunits-2 rounds astronomical units to six or seven digits, and has no inch of the US survey.
+    const double rounded = i >= 17 && i < 22 ? 7e-6 : 1e-9;
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 8 * 2), 1, rounded);
+  }
+}
+
 // The drawing's sizes take the place of the scene's; everything else stays.
 static void test_scene(void) {
   // At a place that no unit makes round.
@@ -581,7 +888,8 @@ static void test_refused(void) {
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     GError *error = NULL;
     const size_t length = strlen(cases[i].text) + (i == 5 ? 3 : 0);
-    g_assert_null(sb_cad_parse_dxf(cases[i].text, length, "a.dxf", &none, &error));
+    const SbCadChoices *choices = i == 4 ? &none : &millimetres;
+    g_assert_null(sb_cad_parse_dxf(cases[i].text, length, "a.dxf", choices, &error));
     g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
     g_assert_cmpstr(error->message, ==, cases[i].says);
     g_error_free(error);
@@ -593,8 +901,10 @@ static void test_refused(void) {
   end(open);
   GError *error = NULL;
   g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &millimetres, &error));
-  g_assert_cmpstr(error->message, ==,
-                  "a.dxf: contains no closed outline; 0: 1 line that closes to no outline");
+  g_assert_cmpstr(
+      error->message, ==,
+      "a.dxf: contains no closed outline; 0: 1 line that closes to no outline: ends are up "
+      "to 4 mm apart");
   g_clear_error(&error);
   g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &wrong, &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
@@ -607,7 +917,13 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/blocks/stretched", test_stretched_block);
   g_test_add_func("/cad/blocks/hostile", test_hostile_blocks);
   g_test_add_func("/cad/mesh", test_mesh);
+  g_test_add_func("/cad/mesh/shells", test_mesh_shells);
   g_test_add_func("/cad/mesh/refused", test_mesh_refused);
+  g_test_add_func("/cad/coordinates", test_coordinates);
+  g_test_add_func("/cad/spline-corners", test_spline_corners);
+  g_test_add_func("/cad/left-out", test_left_out);
+  g_test_add_func("/cad/untidy", test_untidy);
+  g_test_add_func("/cad/units", test_units);
   g_test_add_func("/cad/sections", test_sections);
   g_test_add_func("/cad/flip", test_flip);
   g_test_add_func("/cad/curves", test_curves);

@@ -92,7 +92,7 @@ static Measured measure(int tag, const double d[3]) {
 }
 
 // Writes what is in the kernel and reads it by sealbench-cad.
-static SbCad *through_file(const char *name, double angle) {
+static SbCad *read_through_file(const char *name, const SbCadChoices *choices) {
   int ierr;
   g_autofree char *path = g_build_filename(folder, name, NULL);
   gmshModelOccSynchronize(&ierr);
@@ -105,11 +105,14 @@ static SbCad *through_file(const char *name, double angle) {
   g_assert_cmpint(dup2(kept, STDOUT_FILENO), >=, 0);
   close(kept);
   g_assert_cmpint(ierr, ==, 0);
-  const SbCadChoices choices = {.angle = angle};
   GError *error = NULL;
-  SbCad *cad = sb_cad_read(path, &choices, &error);
+  SbCad *cad = sb_cad_read(path, choices, &error);
   g_assert_no_error(error);
   return cad;
+}
+
+static SbCad *through_file(const char *name, double angle) {
+  return read_through_file(name, &(SbCadChoices){.angle = &angle});
 }
 
 static void begin(void) {
@@ -206,6 +209,39 @@ static void test_port(void) {
                                  M_PI * 0.09 * 5.8, 0.02);
 }
 
+// A ball: the axis passes through its centre, along x or as chosen; a chosen point replaces it. A
+// block has no axis unless one is given.
+static void test_ball(void) {
+  const double along[3] = {0, 0, 1}, through[3] = {2e-3, 1e-3, 7e-3};
+  for (int kind = 0; kind < 3; kind++) {
+    begin();
+    int ierr;
+    if (kind < 2) {
+      gmshModelOccAddSphere(2, 1, -3, 1.5, -1, -M_PI / 2, M_PI / 2, 2 * M_PI, &ierr);
+    } else {
+      gmshModelOccAddBox(1, 0, -3, 2, 2, 2, -1, &ierr);
+    }
+    const SbCadChoices choices = {.axis = kind > 0 ? along : NULL,
+                                  .through = kind == 2 ? through : NULL};
+    g_autoptr(SbCad) cad = read_through_file("ball.step", &choices);
+    finish();
+    const SbCadBody *read = cad->bodies->pdata[0];
+    g_assert_cmpstr(read->why, ==, NULL);
+    g_assert_cmpfloat_with_epsilon(read->solid.centre[0],
+                                   kind == 0   ? 2e-3
+                                   : kind == 1 ? -3e-3
+                                               : -2e-3,
+                                   1e-10);
+    if (kind < 2) {
+      g_assert_cmpfloat_with_epsilon(read->revolved.volume / read->solid.volume, 1, 1e-9);
+    }
+    g_assert_cmpstr(cad->axis, ==,
+                    kind == 0   ? "through 0, 1, -3 mm along 1, 0, 0"
+                    : kind == 1 ? "through 2, 1, 0 mm along 0, 0, 1"
+                                : "through 2, 1, 0 mm along 0, 0, 1");
+  }
+}
+
 // Not there, not STEP, cut short, of no solid, and lengths that no double holds.
 static void test_broken(void) {
   begin();
@@ -285,10 +321,12 @@ int main(int argc, char **argv) {
   folder = g_dir_make_tmp("sealbench-cad-XXXXXX", NULL);
   g_test_add_func("/cad-step/stem", test_stem);
   g_test_add_func("/cad-step/port", test_port);
+  g_test_add_func("/cad-step/ball", test_ball);
   g_test_add_func("/cad-step/broken", test_broken);
   g_test_add_func("/cad-step/limit", test_limit);
   const int code = g_test_run();
-  static const char *const files[] = {"stem.step", "port.stp", "whole.step", "broken.step"};
+  static const char *const files[] = {"stem.step", "port.stp", "ball.step", "whole.step",
+                                      "broken.step"};
   for (size_t i = 0; i < G_N_ELEMENTS(files); i++) {
     g_autofree char *path = g_build_filename(folder, files[i], NULL);
     g_remove(path);

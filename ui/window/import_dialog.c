@@ -25,7 +25,7 @@ typedef struct {
   const char *key, *label, *words;
 } Row;
 
-enum { ROWS = 10, PART_ROW = 6 }; // the row of a drawing's first part
+enum { ROWS = 12, PART_ROW = 8 }; // the row of a drawing's first part
 
 // What kinds of files differ in.
 typedef struct {
@@ -324,8 +324,10 @@ static const Kind scan_kind = {N_("Import a scan"),
 
 static const Row drawing_rows[] = {
     {"unit", N_("Unit of a DXF or STL"), NULL},
-    {"axis", N_("Axis of a DXF or STL"), "x|y|z"},
-    {"angle", N_("Half-plane of a STEP"), NULL},
+    {"axis", N_("Direction of the axis"), NULL},
+    {"through", N_("A point of the axis"), NULL},
+    {"angle", N_("Half-plane of the section"), NULL},
+    {"join", N_("Gaps of a DXF closed up to"), NULL},
     {"flip", N_("Canister on the right"), "no|yes"},
     {"shift", N_("Moved along the axis by"), NULL},
     {"density", N_("Density of the parts"), NULL},
