@@ -170,6 +170,55 @@ static void test_coupled(void) {
   sb_run_destroy(run);
 }
 
+static double time_of(const SbModel *model, const SbSealState *state) {
+  SbDwellLaw law;
+  double time;
+  g_assert_cmpint(sb_breakaway_law(&law, &time, model, SB_OUTER, state, NULL, NULL), ==, SB_OK);
+  return time;
+}
+
+static double error_of(const SbModel *model, const SbSealState *state) {
+  double error;
+  g_assert_cmpint(sb_breakaway_squeeze_error(&error, model, SB_OUTER, state, NULL, NULL), ==,
+                  SB_OK);
+  return error;
+}
+
+// The error of the squeeze-out's time is what the time itself changes with each error of the state.
+// The asperities' fraction of the load has many times its own error's effect.
+static void test_error(void) {
+  SbModel model;
+  const Setting settings[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                              {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
+                              {SB_P_SURFACE_SIGMA, 1e-6},
+                              {SB_P_DRIVE_SPEED, 3e-4}};
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  SbSealState state = sb_run_summary(run)->seal[SB_OUTER];
+  state.central_error = state.net_error = state.width_error = state.share_error = 0;
+  g_assert_cmpfloat(error_of(&model, &state), ==, 0);
+  state.central_error = NAN; // a closed form
+  g_assert_cmpfloat(error_of(&model, &state), ==, 0);
+  state.central_error = 0;
+  const double time = time_of(&model, &state), error = 0.01;
+  SbSealState more = state, less = state;
+  more.asperity_share *= 1 + error;
+  less.asperity_share *= 1 - error;
+  const double share = fabs(time_of(&model, &more) - time_of(&model, &less)) / 2;
+  state.share_error = error;
+  assert_close(error_of(&model, &state), share, 1e-6);
+  g_test_message("%.4g s, %.3g for a share off by %.2g", time, share / time, error);
+  g_assert_cmpfloat(share, >, 2 * error * time);
+  // Those of load and width are part of the share's, and are added by themselves.
+  state.share_error = error + 0.004;
+  state.net_error = 0.003;
+  state.width_error = 0.001;
+  g_assert_cmpfloat(error_of(&model, &state), >, share);
+  state.share_error = 0.004;
+  g_assert_cmpfloat(error_of(&model, &state), <, 0.03 * time);
+  sb_run_destroy(run);
+}
+
 // The first peak grows with the rest before it, alike in the cycle and in the motion with inertia,
 // and each later one with the pause before it: start, stop, start.
 static void test_start_stop(void) {
@@ -325,6 +374,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/breakaway/table", test_table);
   g_test_add_func("/breakaway/limits", test_limits);
   g_test_add_func("/breakaway/coupled", test_coupled);
+  g_test_add_func("/breakaway/error", test_error);
   g_test_add_func("/breakaway/start-stop", test_start_stop);
   g_test_add_func("/breakaway/stops", test_stops);
   g_test_add_func("/breakaway/ahead", test_ahead);

@@ -163,9 +163,6 @@ static double relative_of_state(const SbRun *run, const SbFigure *figure,
     return state->rest_error;
   case SB_BY_SHARE:
     return state->share_error + speed;
-  case SB_BY_SQUEEZE_OUT:
-    // t is proportional to p w^2/h^2 (film/squeeze.h); its final gap depends on the contact.
-    return 2 * film + state->net_error + 2 * state->width_error + state->rest_error;
   case SB_BY_LEAK:
     return leak_error(state);
   case SB_BY_SLOPE:
@@ -186,6 +183,15 @@ static double turn_error(const SbRun *run, int seal, const SbSealState *state, d
   const double strain =
       width > 0 ? state->load_per_length / width / run->model->seal[seal].modulus : 0;
   return (state->load_error + state->width_error) * (5 * fabs(value) + strain * 180 / M_PI);
+}
+
+// Absolute error of the time of the squeeze-out [s]. Film and asperities depend on the speed, too.
+static double squeeze_error(const SbRun *run, int seal, const SbSealState *state, double speed) {
+  SbSealState off = *state;
+  off.central_error = positive(state->central_error) + speed;
+  off.share_error += speed;
+  const SbSlidingTask task = {.model = run->model, .seal = seal, .memory = run->memory[seal]};
+  return sb_sliding_squeeze_error(&off, &task);
 }
 
 // Absolute error of a seal's figure.
@@ -214,6 +220,8 @@ static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
     return state->friction_error + speed * fabs(value);
   case SB_BY_STATIC:
     return state->static_error;
+  case SB_BY_SQUEEZE_OUT:
+    return squeeze_error(run, seal, state, speed);
   case SB_BY_COEFFICIENT:
     return fabs(value) * (state->load_error + state->friction_error / fmax(friction, 1e-300));
   default:

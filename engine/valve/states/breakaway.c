@@ -34,7 +34,7 @@ static double share_under(const Contact *c, double film) {
 }
 
 // The squeeze of the state's film, if it has one, and how real contact follows it. `law` is room
-// for that of asperities that share the load.
+// for that of asperities that share the load, or `known` if that is the law of this surface.
 static SbStatus squeeze_out(Contact *c, SbRoughLaw *law, int seal, const SbSealState *state,
                             const SbRoughLaw *known, SbReport *report) {
   const SbModel *model = c->model;
@@ -47,7 +47,7 @@ static SbStatus squeeze_out(Contact *c, SbRoughLaw *law, int seal, const SbSealS
   const double roughness = film / (state->lambda * model->sigma); // run in, over the model's
   c->surface = sb_model_surface(model, seal, roughness);
   if (law != NULL) {
-    SbStatus status = sb_rough_law_like(law, &c->surface, known, report);
+    SbStatus status = law != known ? sb_rough_law_like(law, &c->surface, known, report) : SB_OK;
     if (status != SB_OK) {
       return status;
     }
@@ -76,6 +76,54 @@ static double aged_friction(double dwell, const void *context) {
   double load = c->load[SLIDING] + done * (c->load[DRY] - c->load[SLIDING]);
   double aged = 1 + c->model->ageing_gain * log1p(dwell / c->model->ageing_time);
   return fmax(area * aged + load, c->kinetic);
+}
+
+// Parts of a state on which the squeeze depends, off by a part of their errors.
+typedef enum { OFF_FILM, OFF_SHARE, OFF_LOAD, OFF_WIDTH, OFF_COUNT } Off;
+
+static SbSealState off_by(const SbSealState *state, Off part, double times) {
+  SbSealState out = *state;
+  if (part == OFF_FILM) { // on the same surface
+    const double error = state->central_error > 0 ? state->central_error : 0; // NaN: exact
+    const double to = fmax(1 + times * error, 0.01);
+    out.film_central *= to;
+    out.lambda *= to;
+  } else if (part == OFF_SHARE) {
+    // Its error includes those of net load and width, which have their own turn.
+    const double own = fmax(state->share_error - state->net_error - state->width_error, 0);
+    out.asperity_share *= fmax(1 + times * own, 0);
+  } else if (part == OFF_LOAD) {
+    out.load_net *= fmax(1 + times * state->net_error, 0.01);
+  } else {
+    const double by = fmax(times * state->width_error, -0.99);
+    out.contact_right += by * (state->contact_right - state->contact_left);
+  }
+  return out;
+}
+
+SbStatus sb_breakaway_squeeze_error(double *out, const SbModel *model, int seal,
+                                    const SbSealState *state, const SbRoughLaw *known,
+                                    SbReport *report) {
+  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  SbRoughLaw *law = coupled ? malloc(sizeof *law) : NULL;
+  *out = 0;
+  if (coupled && law == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the rough contact");
+  }
+  Contact contact = {.model = model, .squeeze_time = NAN, .lambda = state->lambda};
+  SbStatus status = squeeze_out(&contact, law, seal, state, known, report);
+  for (int i = 0; i < OFF_COUNT && status == SB_OK && isfinite(contact.squeeze_time); i++) {
+    double end[2] = {NAN, NAN};
+    for (int k = 0; k < 2 && status == SB_OK; k++) {
+      const SbSealState off = off_by(state, (Off)i, k == 0 ? -1 : 1);
+      Contact other = {.model = model, .squeeze_time = NAN, .lambda = off.lambda};
+      status = squeeze_out(&other, law, seal, &off, law, report);
+      end[k] = other.squeeze_time;
+    }
+    *out += fabs(end[1] - end[0]) / 2;
+  }
+  free(law);
+  return status;
 }
 
 // The law of a fixed ratio, which needs no film.

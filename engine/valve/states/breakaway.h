@@ -37,6 +37,15 @@
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report);
 
+// Computes *out, the absolute error [s] of the time that sb_breakaway_law() writes to
+// *squeeze_time: the sum of half its changes between both signs of the errors of film, asperities'
+// fraction of the load, net load, and contact width (central_error, share_error, net_error,
+// width_error of `state`). The time depends steeply on them where the film is hardly thicker than
+// the gap of the dry contact. 0 without a film. `known` and errors: sb_breakaway_law().
+SbStatus sb_breakaway_squeeze_error(double *out, const SbModel *model, int seal,
+                                    const SbSealState *state, const SbRoughLaw *known,
+                                    SbReport *report);
+
 // Computes *out, the static friction of a solved sliding state after the time `dwell` [s], a
 // magnitude [N]: by sb_breakaway_law(); of a section that rolls or jams the kinetic friction; 0
 // without contact. SB_ERROR_MEMORY is its only error.

@@ -117,6 +117,13 @@ static SbStatus set_static(SbSealState *out, const SbSlidingTask *task, SbReport
   return status;
 }
 
+double sb_sliding_squeeze_error(const SbSealState *state, const SbSlidingTask *task) {
+  double error;
+  const SbStatus status = sb_breakaway_squeeze_error(&error, task->model, task->seal, state,
+                                                     sb_sliding_rough_law(task), NULL);
+  return status == SB_OK ? error : NAN;
+}
+
 // Warns that the thesis' shear strength was determined with its own real area.
 static void strength_warning(const SbSlidingTask *task, double share) {
   const SbModel *model = task->model;
@@ -202,8 +209,14 @@ static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport 
 
 // Sets the errors of a state whose film has its asperities, from those of its contact and loads.
 static void set_coupled_errors(SbSealState *out, const SbSlidingMemory *memory) {
-  const double contact = memory->last->film.solver.error_contact;
-  out->share_error = contact + out->net_error + out->width_error;
+  const SbSlidingSolved *last = memory->last;
+  const SbFit *fit = &memory->now->fit;
+  const double contact = last->film.solver.error_contact;
+  // The surface on which a solid section's film was solved moves that film, and with it the load
+  // that the film leaves to the asperities.
+  const bool section = last->fitted && sb_fit_kind(fit->model)->section;
+  const double surface = section ? sb_sliding_surface_error(out, last, fit) : 0;
+  out->share_error = contact + out->net_error + out->width_error + surface;
   out->area_error = contact + out->net_error + out->width_error;
   sb_sliding_kinetic_errors(out, contact);
 }

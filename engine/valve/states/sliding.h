@@ -236,6 +236,10 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
+// Returns the absolute error of squeeze_out_time [s] of a state of the task's seal
+// (sb_breakaway_squeeze_error()); NaN: no memory.
+double sb_sliding_squeeze_error(const SbSealState *state, const SbSlidingTask *task);
+
 // Computes out[count] [Pa]: the part of the contact pressures p[count] [Pa] (above the fluid
 // pressure) that asperities under a gasket carry, where the film is at least `film` [m] thick
 // (sliding_gasket.c). `out` may be `p`.
