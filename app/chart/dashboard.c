@@ -14,7 +14,16 @@
 #define NOMINAL_HEIGHT 1080.0
 #define LEAST_SCALE    0.75
 
-void sb_dashboard_layout(SbDashboardLayout *out, SbRect rect, bool with_section) {
+// Positions of the parts: a point (x, y) of the page is the pixel (rect.x + scale * x, rect.y +
+// scale * y) of the picture.
+typedef struct {
+  double scale; // of the page
+  SbRect page, section, loop, pressure, film, timeline;
+} Layout;
+
+// Writes the positions of the parts for `rect` [px] as sb_dashboard_draw() uses them.
+// `with_section`: the page has a section; without one out->section has no meaning.
+static void lay_out(Layout *out, SbRect rect, bool with_section) {
   double scale = fmin(rect.width / NOMINAL_WIDTH, rect.height / NOMINAL_HEIGHT);
   // Below three quarters the text would be too small: keep it, give the panels less. A page too
   // small even for that is scaled as a whole again.
@@ -41,8 +50,8 @@ void sb_dashboard_layout(SbDashboardLayout *out, SbRect rect, bool with_section)
 
 void sb_dashboard_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                        unsigned flags, SbSectionDraw section, void *user) {
-  SbDashboardLayout at;
-  sb_dashboard_layout(&at, rect, section != NULL);
+  Layout at;
+  lay_out(&at, rect, section != NULL);
   flags = (flags | SB_CHART_PANEL) & ~(unsigned)SB_CHART_COMPACT;
   cairo_save(cr);
   cairo_translate(cr, rect.x, rect.y);

@@ -14,14 +14,3 @@ typedef void (*SbSectionDraw)(cairo_t *cr, SbRect rect, const SbTheme *theme,
 // section (NULL: the loop takes its place). `flags` of SB_CHART_PANEL, ... (data.h).
 void sb_dashboard_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                        unsigned flags, SbSectionDraw section, void *user);
-
-// Positions of the parts: a point (x, y) of the page is the pixel (rect.x + scale * x, rect.y +
-// scale * y) of the picture.
-typedef struct {
-  double scale; // of the page
-  SbRect page, section, loop, pressure, film, timeline;
-} SbDashboardLayout;
-
-// Writes the positions of the parts for `rect` [px] as sb_dashboard_draw() uses them.
-// `with_section`: the page has a section; without one out->section has no meaning.
-void sb_dashboard_layout(SbDashboardLayout *out, SbRect rect, bool with_section);

@@ -111,8 +111,12 @@ static void add_change(GArray *changes, GPtrArray *conflicts, const SbEntry *ent
   }
 }
 
-char *sb_document_merge_texts(const char *base, const char *mine, const char *theirs,
-                              GPtrArray *conflicts) {
+// Merges three versions of a key file: returns `theirs` with the changes from `base` to `mine`, key
+// by key, with the order of lines and the comments of `theirs`. If both sides changed a key to
+// different values, `mine` is used and a line "group.key: VALUE (in the file: VALUE)" is appended
+// to `conflicts` (of char *; may be NULL).
+static char *merge_texts(const char *base, const char *mine, const char *theirs,
+                         GPtrArray *conflicts) {
   Scan was = scan(base), wanted = scan(mine), there = scan(theirs);
   g_autoptr(GArray) changes = g_array_new(FALSE, FALSE, sizeof(SbChange));
   for (guint i = 0; i < was.entries->len; i++) {
@@ -181,7 +185,7 @@ SbDocument *sb_document_load_with(const char *path, const char *base, const char
   }
   g_autofree char *folder = path != NULL ? g_path_get_dirname(path) : NULL;
   g_autofree char *merged = base != NULL && path != NULL
-                                ? sb_document_merge_texts(base, mine, document->text, conflicts)
+                                ? merge_texts(base, mine, document->text, conflicts)
                                 : g_strdup(mine);
   const char *name = path != NULL ? path : document->title;
   g_autoptr(SbDocument) changed = sb_document_parse(merged, strlen(merged), name, folder, issues);

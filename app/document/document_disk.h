@@ -20,18 +20,12 @@ SbDiskState sb_document_disk_state(const SbDocument *document);
 // save.
 const char *sb_document_file_text(const SbDocument *document);
 
-// Merges three versions of a key file: returns `theirs` with the changes from `base` to `mine`, key
-// by key, with the order of lines and the comments of `theirs`. If both sides changed a key to
-// different values, `mine` is used and a line "group.key: VALUE (in the file: VALUE)" is appended
-// to `conflicts` (of char *; may be NULL).
-char *sb_document_merge_texts(const char *base, const char *mine, const char *theirs,
-                              GPtrArray *conflicts);
-
 // Reads the file `path` again and returns a document with the changes from `base` to `mine` (texts
 // of key files) applied, which sb_document_is_modified() then reports. `base` NULL: the document
 // has all values of `mine`. `path` NULL: an untitled document with the changes of `mine`.
-// `conflicts` as in sb_document_merge_texts(). Returns NULL with at least one issue if the file or
-// `mine` cannot be read. Freed by sb_document_free().
+// If both sides changed a key to different values, that of `mine` applies and a line "group.key:
+// VALUE (in the file: VALUE)" is appended to `conflicts` (of char *; may be NULL). Returns NULL
+// with at least one issue if the file or `mine` cannot be read. Freed by sb_document_free().
 SbDocument *sb_document_load_with(const char *path, const char *base, const char *mine,
                                   GPtrArray *conflicts, GPtrArray *issues);
 

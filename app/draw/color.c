@@ -22,16 +22,6 @@ SbColor sb_color_hex(unsigned rgb) {
                    1};
 }
 
-SbOklab sb_color_to_oklab(SbColor color) {
-  double r = to_linear(color.r), g = to_linear(color.g), b = to_linear(color.b);
-  double l = cbrt(0.4122214708 * r + 0.5363325363 * g + 0.0514459929 * b);
-  double m = cbrt(0.2119034982 * r + 0.6806995451 * g + 0.1073969566 * b);
-  double s = cbrt(0.0883024619 * r + 0.2817188376 * g + 0.6299787005 * b);
-  return (SbOklab){0.2104542553 * l + 0.7936177850 * m - 0.0040720468 * s,
-                   1.9779984951 * l - 2.4285922050 * m + 0.4505937099 * s,
-                   0.0259040371 * l + 0.7827717662 * m - 0.8086757660 * s};
-}
-
 SbColor sb_color_from_oklab(SbOklab lab) {
   double l = lab.l + 0.3963377774 * lab.a + 0.2158037573 * lab.b;
   double m = lab.l - 0.1055613458 * lab.a - 0.0638541728 * lab.b;

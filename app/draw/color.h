@@ -16,9 +16,6 @@ typedef struct {
 // Returns the opaque colour 0xRRGGBB.
 SbColor sb_color_hex(unsigned rgb);
 
-// Returns Ottosson's OKLab of a colour; its opacity is ignored.
-SbOklab sb_color_to_oklab(SbColor color);
-
 // Returns the colour of an OKLab; components can be outside of 0 to 1.
 SbColor sb_color_from_oklab(SbOklab lab);
 

@@ -39,7 +39,8 @@ void sb_export_request_add_compared(SbExportRequest *request, SbSession *session
   }
 }
 
-void sb_export_request_clear(SbExportRequest *request) {
+// Frees the content of a request that was not started, and sets its pointers to NULL.
+static void clear_request(SbExportRequest *request) {
   char **texts[] = {&request->path,     &request->view,  &request->at,    &request->title,
                     &request->subtitle, &request->hash,  &request->scene, &request->from,
                     &request->to,       &request->stale, &request->file,  &request->document};
@@ -316,7 +317,7 @@ void sb_export_job_free(SbExportJob *job) {
   }
   sb_worker_finish(&job->worker);
   sb_run_handle_unref(job->handle);
-  sb_export_request_clear(&job->request);
+  clear_request(&job->request);
   g_free(job->result);
   g_free(job);
 }

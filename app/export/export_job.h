@@ -40,9 +40,6 @@ typedef struct {
 // request that has none.
 void sb_export_request_add_compared(SbExportRequest *request, SbSession *session);
 
-// Frees the content of a request that was not started, and sets its pointers to NULL.
-void sb_export_request_clear(SbExportRequest *request);
-
 typedef struct SbExportJob SbExportJob;
 
 // Starts the export of the finished run `handle`. Takes over the reference `handle` and the content

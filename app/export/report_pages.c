@@ -26,7 +26,8 @@ struct SbReportPages {
   int page, count;
 };
 
-double sb_report_width(const SbReportPages *pages) {
+// Returns the width between the margins of the present page.
+static double width_of(const SbReportPages *pages) {
   return pages->width - 2 * SB_REPORT_MARGIN;
 }
 
@@ -78,7 +79,8 @@ void sb_report_page(SbReportPages *pages, bool across) {
   pages->y = TOP;
 }
 
-void sb_report_room(SbReportPages *pages, double height) {
+// Begins another page of the same orientation if less than `height` is left on the present one.
+static void ensure_room(SbReportPages *pages, double height) {
   if (sb_report_left(pages) < height) {
     sb_report_page(pages, pages->across);
   }
@@ -130,7 +132,7 @@ void sb_report_title(SbReportPages *pages, const char *title, const char *line) 
   SbCanvas *c = &pages->canvas;
   const SbTextStyle big = style_of(pages, SB_TYPE_TITLE, 700, SB_ROLE_INK);
   const SbTextStyle small = style_of(pages, 13, 400, SB_ROLE_SECOND);
-  const double width = sb_report_width(pages);
+  const double width = width_of(pages);
   pages->y += sb_canvas_paragraph(c, title, &big, SB_REPORT_MARGIN, pages->y - 8, width);
   pages->y += 4 + sb_canvas_paragraph(c, line, &small, SB_REPORT_MARGIN, pages->y, width);
   if (!pages->counting) {
@@ -142,7 +144,7 @@ void sb_report_title(SbReportPages *pages, const char *title, const char *line) 
 
 void sb_report_heading(SbReportPages *pages, const char *text, double follows) {
   SbCanvas *c = &pages->canvas;
-  sb_report_room(pages, 44 + follows);
+  ensure_room(pages, 44 + follows);
   pages->y += pages->y > TOP ? 22 : 0;
   const SbTextStyle style = style_of(pages, SB_TYPE_PANEL, 700, SB_ROLE_INK);
   sb_canvas_text(c, text, &style, SB_REPORT_MARGIN, pages->y + 14, SB_LEFT);
@@ -155,9 +157,9 @@ void sb_report_heading(SbReportPages *pages, const char *text, double follows) {
 
 void sb_report_text(SbReportPages *pages, const char *text, double size, int weight, SbRole role) {
   const SbTextStyle style = style_of(pages, size, weight, role);
-  const double width = sb_report_width(pages);
-  sb_report_room(pages, sb_canvas_paragraph_height(&pages->canvas, text, &style, width) +
-                            (weight >= 700 ? 60 : 0));
+  const double width = width_of(pages);
+  ensure_room(pages, sb_canvas_paragraph_height(&pages->canvas, text, &style, width) +
+                         (weight >= 700 ? 60 : 0));
   pages->y +=
       4 + sb_canvas_paragraph(&pages->canvas, text, &style, SB_REPORT_MARGIN, pages->y, width);
 }
@@ -166,9 +168,9 @@ void sb_report_notice(SbReportPages *pages, const char *text, bool error) {
   SbCanvas *c = &pages->canvas;
   const SbTextStyle style =
       style_of(pages, SB_TYPE_LABEL, 600, error ? SB_ROLE_ERROR : SB_ROLE_WARN);
-  const double width = sb_report_width(pages) - 24;
+  const double width = width_of(pages) - 24;
   const double height = sb_canvas_paragraph_height(c, text, &style, width) + 12;
-  sb_report_room(pages, height + 6);
+  ensure_room(pages, height + 6);
   sb_canvas_rounded(c, (SbRect){SB_REPORT_MARGIN, pages->y, width + 24, height}, 4);
   sb_canvas_color(c, sb_canvas_role(c, error ? SB_ROLE_ERROR_GROUND : SB_ROLE_WARN_GROUND), 1);
   cairo_fill(pages->cr);
@@ -189,15 +191,15 @@ static void draw_in(SbReportPages *pages, SbRect rect, SbReportPicture draw, con
 }
 
 void sb_report_picture(SbReportPages *pages, double height, SbReportPicture draw, const void *of) {
-  sb_report_room(pages, height);
-  draw_in(pages, (SbRect){SB_REPORT_MARGIN, pages->y, sb_report_width(pages), height}, draw, of);
+  ensure_room(pages, height);
+  draw_in(pages, (SbRect){SB_REPORT_MARGIN, pages->y, width_of(pages), height}, draw, of);
   pages->y += height + 12;
 }
 
 void sb_report_pair(SbReportPages *pages, double height, SbReportPicture draw, const void *left,
                     const void *right) {
-  sb_report_room(pages, height);
-  const double width = 0.5 * (sb_report_width(pages) - 12);
+  ensure_room(pages, height);
+  const double width = 0.5 * (width_of(pages) - 12);
   draw_in(pages, (SbRect){SB_REPORT_MARGIN, pages->y, width, height}, draw, left);
   draw_in(pages, (SbRect){SB_REPORT_MARGIN + width + 12, pages->y, width, height}, draw, right);
   pages->y += height + 12;
@@ -234,7 +236,7 @@ static Columns columns_of(const SbReportPages *pages, const SbTable *table) {
     }
   }
   for (size_t k = 0; k < out.count; k++) {
-    out.width[k] = sb_report_width(pages) * out.width[k] / sum - GAP;
+    out.width[k] = width_of(pages) * out.width[k] / sum - GAP;
   }
   return out;
 }
@@ -290,11 +292,11 @@ static void draw_row(SbReportPages *pages, const Columns *columns, const SbTable
     height = put_texts(pages, columns, (const char *const *)text, &style, good, false);
   }
   const int page = pages->page;
-  sb_report_room(pages, height + (group || first ? 50 : 0));
+  ensure_room(pages, height + (group || first ? 50 : 0));
   if (first || page != pages->page) {
     draw_head(pages, columns);
   }
-  const double width = sb_report_width(pages);
+  const double width = width_of(pages);
   if (row->mark != SB_TABLE_PLAIN) {
     sb_canvas_color(c, sb_canvas_role(c, grounds[row->mark]), 1);
     cairo_rectangle(pages->cr, SB_REPORT_MARGIN, pages->y + 1, width, height - 1);

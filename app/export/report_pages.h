@@ -43,12 +43,6 @@ typedef struct {
 bool sb_report_pages_write(FILE *stream, const SbReportTexts *texts, SbReportDraw draw,
                            const void *of, const SbReportHooks *hooks, GError **error);
 
-// Returns the width between the margins of the present page.
-double sb_report_width(const SbReportPages *pages);
-
-// Begins another page of the same orientation if less than `height` is left on the present one.
-void sb_report_room(SbReportPages *pages, double height);
-
 // Begins a page: portrait, or landscape if `across`.
 void sb_report_page(SbReportPages *pages, bool across);
 

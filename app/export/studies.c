@@ -18,7 +18,9 @@
 // The swap page's least height; a page of less has no table below it.
 #define SWAP 720.0
 
-void sb_study_page_size(double *width, double *height, const SbStudy *study) {
+// Sets the size that the page is designed for [logical pixels]: wide enough for the table, high
+// enough for panels and table.
+static void page_size(double *width, double *height, const SbStudy *study) {
   if (study->kind == SB_STUDY_PROPELLANTS) {
     *width = 1600;
     *height = ceil(SB_PAGE_HEADER + SWAP + 40 + 16 + sb_study_table_height(study) + SB_PAGE_FOOTER);
@@ -61,7 +63,7 @@ static void draw_swap(cairo_t *cr, SbRect body, const SbTheme *theme, const SbSt
 void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const SbStudyPage *page) {
   const SbTheme *theme = sb_theme(page->dark);
   double width, height;
-  sb_study_page_size(&width, &height, study);
+  page_size(&width, &height, study);
   SbPage frame = sb_page_begin(cr, rect, width, height, theme);
 
   // The header and its state are those of every page; the title is the study's and the scene's.
@@ -132,7 +134,7 @@ bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *p
                    .draw = draw,
                    .user = &drawing};
   if (!(still.width > 0)) {
-    sb_study_page_size(&still.width, &still.height, study);
+    page_size(&still.width, &still.height, study);
   }
   return sb_still_write(&still, path, error);
 }

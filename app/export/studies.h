@@ -20,13 +20,9 @@ typedef struct {
   const char *ending;   // as SbStill (still.h)
   const char *stale;    // why the study no longer matches the scene; NULL: it matches
   bool dark;            // theme
-  double width, height; // [logical pixels]; 0: as sb_study_page_size()
+  double width, height; // [logical pixels]; 0: enough for panels and table
   double scale;         // of a PNG: device pixels per logical pixel; 0: 1
 } SbStudyPage;
-
-// Sets the size that the page is designed for [logical pixels]: wide enough for the table, high
-// enough for panels and table.
-void sb_study_page_size(double *width, double *height, const SbStudy *study);
 
 // Draws the page into `rect` [logical pixels]: header, study, footer with models, errors and
 // warnings. In a smaller `rect` the page is scaled down to 0.8; below that its parts get less room.

@@ -18,5 +18,3 @@ void sb_cutaway_destroy(SbCutaway *cutaway);
 // of its view. Called by sb_section_draw(), after it has set the shapes of the rings.
 void sb_cutaway_draw(SbCutaway *cutaway, SbSection *section);
 
-// Returns the cutaway of a section; NULL before its first picture with SbSectionView.cutaway.
-const SbCutaway *sb_section_cutaway(const SbSection *section);

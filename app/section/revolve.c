@@ -170,7 +170,8 @@ void sb_revolve_place(const SbRevolve *revolve, double z, double r, double angle
   out[2] = along(orbit->toward, z, r, angle);
 }
 
-bool sb_revolve_face_shows(const SbRevolve *revolve, int face) {
+// Returns whether a cut face, 0 or 1, faces the camera.
+static bool face_shows(const SbRevolve *revolve, int face) {
   // Its normal points into the open quarter.
   double angle = face == 0 ? -G_PI / 4 : G_PI / 4;
   return along(revolve->orbit.toward, 0, 1, angle) > 1e-6;
@@ -438,7 +439,7 @@ void sb_revolve_build(SbRevolve *revolve) {
     order[count++] = (Key){-apart(middle, build.camera), (size_t)k};
   }
   for (int face = 0; face < SB_REVOLVE_FACES; face++) {
-    if (sb_revolve_face_shows(revolve, face)) {
+    if (face_shows(revolve, face)) {
       order[count++] = (Key){-apart(sb_revolve_face_angle(face), build.camera),
                              (size_t)(SB_REVOLVE_SECTORS + face)};
     }

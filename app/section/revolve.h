@@ -102,8 +102,5 @@ double sb_revolve_face_angle(int face);
 // and out[2] towards the camera [m].
 void sb_revolve_place(const SbRevolve *revolve, double z, double r, double angle, double out[3]);
 
-// Returns whether a cut face, 0 or 1, faces the camera.
-bool sb_revolve_face_shows(const SbRevolve *revolve, int face);
-
 // Returns the volume that the surface cells of a body enclose with its cut faces [m3], for tests.
 double sb_revolve_volume(const SbRevolve *revolve, SbRevolveBody solid);

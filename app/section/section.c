@@ -5,7 +5,7 @@
 #include "app/section/cutaway.h"
 #include "app/section/section_private.h"
 
-#include <glib.h>
+#include <glib/gi18n.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -89,8 +89,8 @@ void sb_section_limits_add_run(SbSectionLimits *limits, const SbRun *run) {
 
 const char *sb_section_field_name(SbField field) {
   static const char *const names[SB_FIELD_COUNT] = {
-      "von Mises stress", "hydrostatic pressure", "shear stress",
-      "contact pressure", "displacement",         "permeation flux over P Δp"};
+      N_("von Mises stress"), N_("hydrostatic pressure"), N_("shear stress"),
+      N_("contact pressure"), N_("displacement"),         N_("permeation flux over P Δp")};
   return names[field];
 }
 
@@ -397,11 +397,8 @@ static bool shows_both_halves(const SbSectionView *view) {
   return view->full && view->zoom == SB_SECTION_WHOLE;
 }
 
-const SbCutaway *sb_section_cutaway(const SbSection *section) {
-  return section->cutaway;
-}
-
-void sb_section_draw_strip(SbSection *section) {
+// Draws the strip: housing, stem, fluid and rings.
+static void draw_strip(SbSection *section) {
   const SbPalette *palette = section->palette;
   SbDrawList *list = section->list;
   const SbFrame *frame = section->instant->frame;
@@ -582,7 +579,7 @@ void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *
     section->list = NULL;
     return;
   }
-  sb_section_draw_strip(section);
+  draw_strip(section);
   double x = layout.margin + (layout.column ? layout.legend_width + COLUMN_GAP : 0);
   double gap = 24;
   double width = view->width - layout.margin - x;

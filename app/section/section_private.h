@@ -73,9 +73,6 @@ void sb_section_reserve(SbSection *section, double x, double y, double width, do
 // Radius that is drawn above the axis, divided by SbValveOutline.size.
 #define SB_SECTION_TOP 0.79
 
-// Draws the strip: housing, stem, fluid and rings.
-void sb_section_draw_strip(SbSection *section);
-
 // Draws the labels of the strip.
 void sb_section_draw_strip_labels(SbSection *section);
 

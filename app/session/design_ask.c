@@ -164,7 +164,10 @@ static void append_tolerances(GString *text, const SbDocument *document) {
   }
 }
 
-char *sb_design_ask_text(const SbDesignAsk *ask, const SbDocument *document, const char *scene) {
+// Returns the text of this study file, which names the file `scene` as its scene; also for a
+// request that sb_design_ask_study() refuses. `closed` is not part of the text: the settings of the
+// closed forms are options --set of the command.
+static char *study_text(const SbDesignAsk *ask, const SbDocument *document, const char *scene) {
   GString *text = g_string_new("[sealbench]\nformat = 1\nkind = study\n");
   const char *goal = sb_figure(ask->goal)->path;
   g_string_append_printf(text, "scene = %s\n", scene);
@@ -197,7 +200,7 @@ SbStudyFile *sb_design_ask_study(const SbDesignAsk *ask, const SbDocument *docum
     g_ptr_array_add(settings, g_strdup_printf("%s=%s", closed_forms[i][0], closed_forms[i][1]));
   }
   g_ptr_array_add(settings, NULL);
-  g_autofree char *text = sb_design_ask_text(ask, document, "document");
+  g_autofree char *text = study_text(ask, document, "document");
   return sb_study_file_parse(text, strlen(text), sb_document_title(document), directory,
                              (char **)settings->pdata, copy, issues);
 }

@@ -54,8 +54,3 @@ void sb_design_ask_limit(SbDesignAsk *ask, int figure, double low, double high);
 // Freed by sb_study_file_free().
 SbStudyFile *sb_design_ask_study(const SbDesignAsk *ask, const SbDocument *document,
                                  GPtrArray *issues);
-
-// Returns the text of this study file, which names the file `scene` as its scene; also for a
-// request that sb_design_ask_study() refuses. `closed` is not part of the text: the settings of the
-// closed forms are options --set of the command.
-char *sb_design_ask_text(const SbDesignAsk *ask, const SbDocument *document, const char *scene);

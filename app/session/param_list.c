@@ -61,6 +61,30 @@ const char *sb_param_owner(SbParamId id) {
                                                    : "";
 }
 
+char *sb_param_undo_text(const SbDocument *document, bool redo) {
+  static const char *const others[] = {
+      [SB_DOCUMENT_RUBBER - SB_PARAM_COUNT] = N_("Rubber"),
+      [SB_DOCUMENT_MEASURED - SB_PARAM_COUNT] = N_("Measured data"),
+      [SB_DOCUMENT_SECTION - SB_PARAM_COUNT] = N_("Drawn section"),
+      [SB_DOCUMENT_GROOVE - SB_PARAM_COUNT] = N_("Drawn groove"),
+      [SB_DOCUMENT_WHOLE - SB_PARAM_COUNT] = N_("Another version of the file"),
+  };
+  double value[2];
+  const int id = sb_document_next_undo(document, redo, value);
+  if (id < 0 || id >= SB_PARAM_COUNT) {
+    return id < 0 ? NULL : g_strdup(_(others[id - SB_PARAM_COUNT]));
+  }
+  g_autofree char *before = sb_param_format((SbParamId)id, value[0]);
+  g_autofree char *after = sb_param_format((SbParamId)id, value[1]);
+  // The unit is given once if both values have the same one.
+  char *unit = strchr(before, ' ');
+  if (unit != NULL && g_str_has_suffix(after, unit)) {
+    *unit = '\0';
+  }
+  return g_strdup_printf("%s%s %s → %s", sb_param_owner((SbParamId)id),
+                         sb_translation(sb_param((SbParamId)id)->label), before, after);
+}
+
 static gboolean contains(const char *text, const char *needle) {
   g_autofree char *folded = g_utf8_casefold(text, -1);
   return strstr(folded, needle) != NULL;

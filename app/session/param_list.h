@@ -21,6 +21,10 @@ gboolean sb_param_is_changed(const SbParams *params, SbParamId id);
 // for others. Static.
 const char *sb_param_owner(SbParamId id);
 
+// Returns the edit that undo (or redo) would change: "Outer seal: section diameter 1.7 → 1.58 mm",
+// always with the value before it first. NULL: there is none. Translated.
+char *sb_param_undo_text(const SbDocument *document, bool redo);
+
 // Returns the allowed range as sb_param_range(), translated.
 char *sb_param_range_shown(SbParamId id);
 

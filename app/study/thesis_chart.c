@@ -127,6 +127,25 @@ static const SbContactProfile *profile_of(const SbRun *run, int seal) {
   return best < count ? sb_run_profile(run, frame[best].seal[seal].profile) : NULL;
 }
 
+// Quantities of a frame, each a double.
+#define SEAL_QUANTITY(name, index, member)                                                         \
+  { name "." #member, offsetof(SbFrame, seal[index].member) }
+#define SEAL_QUANTITIES(seal, index)                                                               \
+  SEAL_QUANTITY(seal, index, friction), SEAL_QUANTITY(seal, index, friction_boundary),             \
+      SEAL_QUANTITY(seal, index, friction_viscous), SEAL_QUANTITY(seal, index, film_min),          \
+      SEAL_QUANTITY(seal, index, film_central), SEAL_QUANTITY(seal, index, load)
+
+static const struct {
+  const char *name;
+  size_t offset;
+} quantities[] = {{"time", offsetof(SbFrame, time)},
+                  {"displacement", offsetof(SbFrame, displacement)},
+                  {"velocity", offsetof(SbFrame, velocity)},
+                  {"force", offsetof(SbFrame, force)},
+                  {"pressure_force", offsetof(SbFrame, pressure_force)},
+                  SEAL_QUANTITIES("outer", SB_OUTER),
+                  SEAL_QUANTITIES("inner", SB_INNER)};
+
 bool sb_thesis_run_value(double *out, const char *name, const SbThesisPlace *at) {
   if (at->profile != NULL) {
     const SbContactProfile *of = at->profile;
@@ -138,39 +157,10 @@ bool sb_thesis_run_value(double *out, const char *name, const SbThesisPlace *at)
     *out = column != NULL ? column[at->point] : NAN;
     return column != NULL;
   }
-  const struct {
-    const char *name;
-    double value;
-  } own[] = {{"time", at->frame->time},
-             {"displacement", at->frame->displacement},
-             {"velocity", at->frame->velocity},
-             {"force", at->frame->force},
-             {"pressure_force", at->frame->pressure_force}};
-  for (size_t i = 0; i < G_N_ELEMENTS(own); i++) {
-    if (strcmp(name, own[i].name) == 0) {
-      *out = own[i].value;
+  for (size_t i = 0; i < G_N_ELEMENTS(quantities); i++) {
+    if (strcmp(name, quantities[i].name) == 0) {
+      *out = *(const double *)((const char *)at->frame + quantities[i].offset);
       return true;
-    }
-  }
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const size_t length = strlen(sb_seal_name(seal));
-    const SbSealFrame *of = &at->frame->seal[seal];
-    const struct {
-      const char *name;
-      double value;
-    } its[] = {{"friction", of->friction},
-               {"friction_boundary", of->friction_boundary},
-               {"friction_viscous", of->friction_viscous},
-               {"film_min", of->film_min},
-               {"film_central", of->film_central},
-               {"load", of->load}};
-    for (size_t i = 0; strncmp(name, sb_seal_name(seal), length) == 0 && name[length] == '.' &&
-                       i < G_N_ELEMENTS(its);
-         i++) {
-      if (strcmp(name + length + 1, its[i].name) == 0) {
-        *out = its[i].value;
-        return true;
-      }
     }
   }
   return false;

@@ -369,7 +369,9 @@ static bool answer_grid(SbThesisWork *work, SbThesisGrid *grid) {
   return good;
 }
 
-bool sb_thesis_answer(SbThesisWork *work) {
+// Computes all figures of all grids that expressions of rows and series use. Returns false if that
+// failed (with an issue) or was cancelled.
+static bool answer_grids(SbThesisWork *work) {
   for (guint i = 0; i < work->entries->len; i++) {
     const SbEntry *entry = work->entries->pdata[i];
     if (entry->name != NULL &&
@@ -458,7 +460,7 @@ static bool open_printed(SbThesisWork *work, const char *folder) {
 }
 
 static void fill(SbThesisItem *item, SbThesisWork *work) {
-  if (!sb_thesis_answer(work)) {
+  if (!answer_grids(work)) {
     return;
   }
   for (guint i = 0; i < work->entries->len && !work->stopped; i++) {

@@ -72,10 +72,6 @@ bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *
 // Returns whether the computation was cancelled; calls `cancelled`.
 bool sb_thesis_stopped(SbThesisWork *work);
 
-// Computes all figures of all grids that expressions of rows and series use. Returns false if that
-// failed (with an issue) or was cancelled.
-bool sb_thesis_answer(SbThesisWork *work);
-
 // Returns `text` with each [COLUMN] replaced by the text of the row's cell.
 char *sb_thesis_with_cells(const SbThesisPlace *at, const char *text);
 

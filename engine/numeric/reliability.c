@@ -8,7 +8,8 @@
 #include <math.h>
 #include <string.h>
 
-const char *sb_search_text(SbSearchEnd end) {
+// Returns the meaning of `end` as a clause, without a full stop.
+static const char *end_text(SbSearchEnd end) {
   switch (end) {
   case SB_SEARCH_FOUND:
     return "the most probable failure was found";
@@ -28,7 +29,7 @@ const char *sb_search_text(SbSearchEnd end) {
 
 const char *sb_failure_text(const SbFailurePoint *found) {
   if (!(found->value < 0)) {
-    return sb_search_text(found->end);
+    return end_text(found->end);
   }
   switch (found->end) {
   case SB_SEARCH_FLAT:
@@ -37,7 +38,7 @@ const char *sb_failure_text(const SbFailurePoint *found) {
     return "the median fails, and no valve that meets the limit was found within 8 standard "
            "deviations";
   default:
-    return sb_search_text(found->end);
+    return end_text(found->end);
   }
 }
 

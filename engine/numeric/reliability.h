@@ -40,9 +40,6 @@ typedef enum {
 // Largest distance of a failure point that is searched: Phi(-8) = 6e-16.
 #define SB_SEARCH_FARTHEST 8.0
 
-// Returns the meaning of `end` as a clause, without a full stop.
-const char *sb_search_text(SbSearchEnd end);
-
 // Result of a search.
 typedef struct {
   SbSearchEnd end;
@@ -53,8 +50,8 @@ typedef struct {
   size_t evaluations; // number of evaluations of g
 } SbFailurePoint;
 
-// Returns the meaning of a result as a clause, without a full stop; static. Unlike sb_search_text()
-// it distinguishes a limit that is met within the whole searched range from one that is violated
+// Returns the meaning of a result as a clause, without a full stop; static. It
+// distinguishes a limit that is met within the whole searched range from one that is violated
 // there.
 const char *sb_failure_text(const SbFailurePoint *found);
 

@@ -10,8 +10,7 @@
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
-#include "ui/window/drawing_job.h"
-#include "ui/window/scan_job.h"
+#include "ui/window/read_job.h"
 #include "ui/window/window.h"
 
 #include <glib/gi18n.h>
@@ -32,6 +31,7 @@ typedef struct {
   const char *title, *picture;
   const Row *row; // up to a key of NULL
   void (*start)(Dialog *dialog);
+  const SbReadKind *reader;      // of start_reading()
   char *(*take)(Dialog *dialog); // what was recognised; NULL with the message shown
   void (*draw)(cairo_t *cr, double width, double height, void *dialog);
   bool (*use)(Dialog *dialog); // false: the dialog stays, its message says why
@@ -50,10 +50,9 @@ struct Dialog {
   SbMeasureJob *measuring;
   SbMeasured *measured;
   SbComparison *comparison;
-  SbScanJob *scanning;
-  const SbSurface *surface; // of `scanning`, once it is done
-  SbDrawingJob *drawing;
-  const SbDrawing *drawn; // of `drawing`, once it is done
+  SbReadJob *reading;
+  const SbSurface *surface; // of `reading`, once a scan is read
+  const SbDrawing *drawn;   // of `reading`, once a drawing is read
 };
 
 // The form ---------------------------------------------------------------------------------------
@@ -232,6 +231,7 @@ static const Kind measured_kind = {N_("Import measured data"),
                                    N_("The loop as it was read"),
                                    measured_rows,
                                    start_measured,
+                                   NULL,
                                    take_measured,
                                    draw_measured,
                                    use_measured,
@@ -253,16 +253,18 @@ static const Row scan_rows[] = {
     {0},
 };
 
-static void start_scan(Dialog *dialog) {
+// Reads a scan or a drawing.
+static void start_reading(Dialog *dialog) {
   dialog->surface = NULL;
-  g_clear_pointer(&dialog->scanning, sb_scan_job_free);
+  dialog->drawn = NULL;
+  g_clear_pointer(&dialog->reading, sb_read_job_free);
   g_autofree char *keys = said_keys(dialog);
-  dialog->scanning = sb_scan_job_start(dialog->path, keys, on_read, dialog);
+  dialog->reading = sb_read_job_start(dialog->kind->reader, dialog->path, keys, on_read, dialog);
 }
 
 static char *take_scan(Dialog *dialog) {
   const char *why = NULL;
-  dialog->surface = sb_scan_job_surface(dialog->scanning, &why);
+  dialog->surface = sb_read_job_result(dialog->reading, &why);
   if (dialog->surface == NULL) {
     gtk_label_set_text(GTK_LABEL(dialog->message), why);
     return NULL;
@@ -313,7 +315,8 @@ static bool use_scan(Dialog *dialog) {
 static const Kind scan_kind = {N_("Import a scan"),
                                N_("Map, spectrum and heights of the scan"),
                                scan_rows,
-                               start_scan,
+                               start_reading,
+                               &sb_read_scan,
                                take_scan,
                                draw_scan,
                                use_scan,
@@ -340,13 +343,6 @@ static const Row drawing_rows[] = {
 
 G_STATIC_ASSERT(G_N_ELEMENTS(drawing_rows) <= ROWS + 1);
 
-static void start_drawing(Dialog *dialog) {
-  dialog->drawn = NULL;
-  g_clear_pointer(&dialog->drawing, sb_drawing_job_free);
-  g_autofree char *keys = said_keys(dialog);
-  dialog->drawing = sb_drawing_job_start(dialog->path, keys, on_read, dialog);
-}
-
 // The scene with the drawing's parts for a file `path`, and how it differs from the document; NULL
 // with the message shown.
 static char *drawn_scene(Dialog *dialog, const char *path, char **differences) {
@@ -367,7 +363,7 @@ static char *drawn_scene(Dialog *dialog, const char *path, char **differences) {
 
 static char *take_drawing(Dialog *dialog) {
   const char *why = NULL;
-  dialog->drawn = sb_drawing_job_drawing(dialog->drawing, &why);
+  dialog->drawn = sb_read_job_result(dialog->reading, &why);
   if (dialog->drawn == NULL) {
     gtk_label_set_text(GTK_LABEL(dialog->message), why);
     return NULL;
@@ -450,7 +446,8 @@ static bool use_drawing(Dialog *dialog) {
 static const Kind drawing_kind = {N_("Import a drawing"),
                                   N_("Half-sections of the bodies"),
                                   drawing_rows,
-                                  start_drawing,
+                                  start_reading,
+                                  &sb_read_drawing,
                                   take_drawing,
                                   draw_drawing,
                                   use_drawing,
@@ -469,8 +466,7 @@ static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
 static void on_destroy(GtkWidget *widget, Dialog *dialog) {
   sb_measure_job_free(dialog->measuring);
   forget_measured(dialog);
-  sb_scan_job_free(dialog->scanning);
-  sb_drawing_job_free(dialog->drawing);
+  sb_read_job_free(dialog->reading);
   g_object_unref(dialog->session);
   g_free(dialog->path);
   g_free(dialog);

@@ -4,6 +4,7 @@
 #include "ui/window/autosave_offer.h"
 
 #include "app/base/translation.h"
+#include "app/session/param_list.h"
 #include "app/session/session.h"
 #include "ui/params/derived_panel.h"
 #include "ui/params/gland_panel.h"
@@ -29,7 +30,6 @@
 #include "ui/window/study_window.h"
 #include "ui/window/thesis_page.h"
 #include "ui/window/toast.h"
-#include "ui/window/undo_hints.h"
 #include "ui/window/verdict_strip.h"
 #include "ui/window/window_files.h"
 
@@ -172,14 +172,23 @@ static void refresh_run_state(SbWindow *window) {
   set_enabled(window, "run-or-stop", running || (sb_session_model(session) != NULL && errors == 0));
 }
 
+// Names the edit that an undo (or redo) button changes in its tooltip and accessible description.
+static void show_edit(GtkWidget *button, const SbDocument *document, bool redo) {
+  g_autofree char *what = sb_param_undo_text(document, redo);
+  const char *plain = redo ? _("Redo (Ctrl+Shift+Z)") : _("Undo (Ctrl+Z)");
+  g_autofree char *tip = what != NULL ? g_strdup_printf("%s\n%s", plain, what) : g_strdup(plain);
+  gtk_widget_set_tooltip_text(button, tip);
+  atk_object_set_description(gtk_widget_get_accessible(button), what != NULL ? what : "");
+}
+
 static void refresh(SbWindow *window) {
   const SbDocument *document = sb_session_document(window->session);
   refresh_titles(window);
   refresh_run_state(window);
   set_enabled(window, "undo", sb_document_can_undo(document));
   set_enabled(window, "redo", sb_document_can_redo(document));
-  sb_undo_hints_show(window->undo_button, document, false);
-  sb_undo_hints_show(window->redo_button, document, true);
+  show_edit(window->undo_button, document, false);
+  show_edit(window->redo_button, document, true);
   set_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
   set_enabled(window, "export", sb_session_may_keep(window->session));
@@ -207,7 +216,7 @@ static void on_frames(SbWindow *window) {
 
 // Takes an edit back or makes it again: tells which, and shows its row.
 static void go_back(SbWindow *window, bool redo) {
-  g_autofree char *what = sb_undo_hints_text(sb_session_document(window->session), redo);
+  g_autofree char *what = sb_param_undo_text(sb_session_document(window->session), redo);
   const int id = redo ? sb_session_redo(window->session) : sb_session_undo(window->session);
   if (what != NULL) {
     g_autofree char *text = g_strdup_printf(redo ? _("Done again: %s") : _("Undone: %s"), what);
