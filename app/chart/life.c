@@ -2,23 +2,25 @@
 // actuations are drawn, evenly spaced with the first and the last; every one is in life.csv.
 #include "app/chart/life.h"
 #include "app/chart/study.h"
+#include "engine/base/label.h"
 
 #include <glib.h>
 #include <math.h>
 
 static void fill(SbStudy *study, const SbChartRun *run) {
-  study->x = (SbStudyAxis){"actuation", "1", "", false};
-  SbStudyPanel *force = sb_study_panel(study, &(SbStudyAxis){"force", "N", "N", false}, "");
-  SbStudyPanel *film =
-      sb_study_panel(study, &(SbStudyAxis){"over the given roughness", "1", "", false}, "");
+  study->x = (SbStudyAxis){SB_LABEL("actuation"), "1", "", false};
+  SbStudyPanel *force =
+      sb_study_panel(study, &(SbStudyAxis){SB_LABEL("force"), "N", "N", false}, "");
+  SbStudyPanel *film = sb_study_panel(
+      study, &(SbStudyAxis){SB_LABEL("over the given roughness"), "1", "", false}, "");
   SbStudyPanel *leak =
-      sb_study_panel(study, &(SbStudyAxis){"leakage, summed", "m3", "nl", false}, "");
-  SbStudySeries *breakaway = sb_study_series(force, SB_STUDY_CURVE, "break-away");
-  SbStudySeries *back = sb_study_series(force, SB_STUDY_CURVE, "least return");
-  SbStudySeries *rough = sb_study_series(film, SB_STUDY_CURVE, "roughness");
-  SbStudySeries *lambda = sb_study_series(film, SB_STUDY_CURVE, "λ against the first");
-  SbStudySeries *carried = sb_study_series(leak, SB_STUDY_CURVE, "carried out");
-  SbStudySeries *net = sb_study_series(leak, SB_STUDY_CURVE, "net");
+      sb_study_panel(study, &(SbStudyAxis){SB_LABEL("leakage, summed"), "m3", "nl", false}, "");
+  SbStudySeries *breakaway = sb_study_series(force, SB_STUDY_CURVE, SB_LABEL("break-away"));
+  SbStudySeries *back = sb_study_series(force, SB_STUDY_CURVE, SB_LABEL("least return"));
+  SbStudySeries *rough = sb_study_series(film, SB_STUDY_CURVE, SB_LABEL("roughness"));
+  SbStudySeries *lambda = sb_study_series(film, SB_STUDY_CURVE, SB_LABEL("λ against the first"));
+  SbStudySeries *carried = sb_study_series(leak, SB_STUDY_CURVE, SB_LABEL("carried out"));
+  SbStudySeries *net = sb_study_series(leak, SB_STUDY_CURVE, SB_LABEL("net"));
   double sum[2] = {0, 0};
   size_t points = MIN(run->life_count, SB_STUDY_POINTS), drawn = 0;
   for (size_t i = 0; i < run->life_count; i++) {

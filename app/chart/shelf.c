@@ -2,6 +2,7 @@
 #include "app/chart/shelf.h"
 
 #include "app/chart/study.h"
+#include "engine/base/label.h"
 #include "engine/valve/figures/figures.h"
 
 #include <glib.h>
@@ -17,15 +18,17 @@ static double sum_of(const SbShelf *shelf, size_t i) {
 
 // Curves over time of the three ways out.
 static void fill_losses(SbStudy *study, const SbShelf *shelf) {
-  SbStudyPanel *sums = sb_study_panel(study, &(SbStudyAxis){"lost, summed", "kg", "mg", false},
-                                      "the loss is not known");
-  SbStudyPanel *rates = sb_study_panel(study, &(SbStudyAxis){"lost a year", "kg", "mg", false},
-                                       "the loss is not known");
-  SbStudySeries *all = sb_study_series(sums, SB_STUDY_CURVE, "all paths");
-  SbStudySeries *rubber = sb_study_series(sums, SB_STUDY_CURVE, "through the rubber");
-  SbStudySeries *contact = sb_study_series(sums, SB_STUDY_CURVE, "along the contact");
-  SbStudySeries *plastic = sb_study_series(sums, SB_STUDY_CURVE, "through the plastic");
-  SbStudySeries *rate = sb_study_series(rates, SB_STUDY_CURVE, "all paths");
+  SbStudyPanel *sums =
+      sb_study_panel(study, &(SbStudyAxis){SB_LABEL("lost, summed"), "kg", "mg", false},
+                     SB_LABEL("the loss is not known"));
+  SbStudyPanel *rates =
+      sb_study_panel(study, &(SbStudyAxis){SB_LABEL("lost a year"), "kg", "mg", false},
+                     SB_LABEL("the loss is not known"));
+  SbStudySeries *all = sb_study_series(sums, SB_STUDY_CURVE, SB_LABEL("all paths"));
+  SbStudySeries *rubber = sb_study_series(sums, SB_STUDY_CURVE, SB_LABEL("through the rubber"));
+  SbStudySeries *contact = sb_study_series(sums, SB_STUDY_CURVE, SB_LABEL("along the contact"));
+  SbStudySeries *plastic = sb_study_series(sums, SB_STUDY_CURVE, SB_LABEL("through the plastic"));
+  SbStudySeries *rate = sb_study_series(rates, SB_STUDY_CURVE, SB_LABEL("all paths"));
   double before = 0;
   for (size_t i = 0; i < shelf->points; i++) {
     const double time = shelf->point[i].time;
@@ -45,12 +48,13 @@ static void fill_losses(SbStudy *study, const SbShelf *shelf) {
 }
 
 static void fill_rest(SbStudy *study, const SbShelf *shelf) {
-  SbStudyPanel *water = sb_study_panel(study, &(SbStudyAxis){"water absorbed", "kg", "mg", false},
-                                       "the water is not known");
-  SbStudyPanel *left =
-      sb_study_panel(study, &(SbStudyAxis){"doses left", "1", "", false}, "the loss is not known");
-  SbStudySeries *moisture = sb_study_series(water, SB_STUDY_CURVE, "water");
-  SbStudySeries *doses = sb_study_series(left, SB_STUDY_CURVE, "doses");
+  SbStudyPanel *water =
+      sb_study_panel(study, &(SbStudyAxis){SB_LABEL("water absorbed"), "kg", "mg", false},
+                     SB_LABEL("the water is not known"));
+  SbStudyPanel *left = sb_study_panel(study, &(SbStudyAxis){SB_LABEL("doses left"), "1", "", false},
+                                      SB_LABEL("the loss is not known"));
+  SbStudySeries *moisture = sb_study_series(water, SB_STUDY_CURVE, SB_LABEL("water"));
+  SbStudySeries *doses = sb_study_series(left, SB_STUDY_CURVE, SB_LABEL("doses"));
   for (size_t i = 0; i < shelf->points; i++) {
     sb_study_point(moisture, shelf->point[i].time, shelf->point[i].moisture);
     if (!isnan(shelf->point[i].permeated + shelf->point[i].passed)) {
@@ -61,7 +65,8 @@ static void fill_rest(SbStudy *study, const SbShelf *shelf) {
 
 // The paths side by side: a year as the valve is now, all of the time, shares of that.
 static void fill_table(SbStudy *study, const SbShelf *shelf) {
-  static const char *const names[] = {"rubber", "contact", "plastic", "sum"};
+  static const char *const names[] = {SB_LABEL("rubber"), SB_LABEL("contact"), SB_LABEL("plastic"),
+                                      SB_LABEL("sum")};
   const size_t last = shelf->points - 1;
   const double rubber = shelf->permeation - (isnan(shelf->plastic) ? 0 : shelf->plastic);
   const double year[] = {YEAR * rubber, YEAR * shelf->interface, YEAR * shelf->plastic,
@@ -70,10 +75,10 @@ static void fill_table(SbStudy *study, const SbShelf *shelf) {
                          shelf->point[last].plastic, shelf->loss};
   static const struct {
     const char *name, *si, *unit;
-  } rows[] = {{"lost a year, as the valve is now", "kg", "mg"},
-              {"lost over the shelf time", "kg", "mg"},
-              {"fraction of the loss", "1", "%"}};
-  g_strlcpy(study->row_heading, "path", sizeof study->row_heading);
+  } rows[] = {{SB_LABEL("lost a year, as the valve is now"), "kg", "mg"},
+              {SB_LABEL("lost over the shelf time"), "kg", "mg"},
+              {SB_LABEL("fraction of the loss"), "1", "%"}};
+  g_strlcpy(study->row_heading, SB_LABEL("path"), sizeof study->row_heading);
   study->column_count = G_N_ELEMENTS(names);
   study->row_count = G_N_ELEMENTS(rows);
   for (size_t r = 0; r < G_N_ELEMENTS(rows); r++) {
@@ -124,7 +129,7 @@ void sb_shelf_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChart
     return;
   }
   g_autofree SbStudy *study = g_new0(SbStudy, 1);
-  study->x = (SbStudyAxis){"time on the shelf", "s", "month", false};
+  study->x = (SbStudyAxis){SB_LABEL("time on the shelf"), "s", SB_LABEL("month"), false};
   fill_losses(study, &summary->shelf);
   fill_rest(study, &summary->shelf);
   fill_table(study, &summary->shelf);

@@ -1,8 +1,8 @@
 // See the header.
 #include "app/draw/legend.h"
 
-#include "app/base/translation.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 
 double sb_legend_line(SbCanvas *c, double right, double y, double room, SbStroke stroke,
@@ -19,5 +19,5 @@ double sb_legend_line(SbCanvas *c, double right, double y, double room, SbStroke
 double sb_legend_predicted(SbCanvas *c, double right, double y) {
   return sb_legend_line(c, right, y, INFINITY,
                         (SbStroke){SB_ROLE_INK, SB_LINE_SEAL, &sb_dash_predicted},
-                        sb_translation("predicted"));
+                        _("predicted"));
 }

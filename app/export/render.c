@@ -16,6 +16,7 @@
 #include "app/export/still.h"
 #include "app/session/playhead.h"
 
+#include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
 
@@ -61,21 +62,21 @@ static void draw_shelf(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
 }
 
 static const SbRenderView views[] = {
-    {"section", "Axial section", 1280, 720, .computes = SB_VIEW_SECTION, .section = true,
+    {"section", N_("Axial section"), 1280, 720, .computes = SB_VIEW_SECTION, .section = true,
      .rig = sb_rig_plate_draw},
-    {"cutaway", "Cutaway in three dimensions", 1280, 720, .computes = SB_VIEW_SECTION,
+    {"cutaway", N_("Cutaway in three dimensions"), 1280, 720, .computes = SB_VIEW_SECTION,
      .section = true, .cutaway = true, .fits = is_valve},
-    {"hysteresis", "Force and displacement", 960, 720, .computes = SB_VIEW_HYSTERESIS,
+    {"hysteresis", N_("Force and displacement"), 960, 720, .computes = SB_VIEW_HYSTERESIS,
      .compares = true, .whole = true, .valve = sb_hysteresis_draw, .rig = sb_signal_draw},
-    {"profiles", "Contact pressure and film", 1440, 520, .computes = SB_VIEW_PROFILES,
+    {"profiles", N_("Contact pressure and film"), 1440, 520, .computes = SB_VIEW_PROFILES,
      .compares = true, .valve = sb_profiles_draw, .rig = sb_rig_figures_draw},
-    {"dashboard", "Dashboard", 1920, 1080, .computes = SB_VIEW_DASHBOARD, .section = true,
+    {"dashboard", N_("Dashboard"), 1920, 1080, .computes = SB_VIEW_DASHBOARD, .section = true,
      .compares = true, .page = sb_dashboard_draw},
-    {"rig", "Thread force and coefficients", 1440, 720, .computes = SB_VIEW_RIG, .whole = true,
+    {"rig", N_("Thread force and coefficients"), 1440, 720, .computes = SB_VIEW_RIG, .whole = true,
      .valve = sb_rig_page_draw, .rig = sb_rig_page_draw, .fits = is_rig},
-    {"life", "Life over its actuations", 1440, 620, .computes = SB_VIEW_LIFE, .whole = true,
+    {"life", N_("Life over its actuations"), 1440, 620, .computes = SB_VIEW_LIFE, .whole = true,
      .valve = draw_life, .rig = draw_life, .fits = has_life},
-    {"shelf", "Loss on the shelf", 1440, 760, .computes = SB_VIEW_SHELF, .whole = true,
+    {"shelf", N_("Loss on the shelf"), 1440, 760, .computes = SB_VIEW_SHELF, .whole = true,
      .valve = draw_shelf, .rig = draw_shelf, .fits = has_shelf},
 };
 
@@ -88,7 +89,7 @@ static const SbRenderSize sizes[] = {
     {"720p", "720p, 1280 \xc3\x97 720", 1280, 720},
     {"1080p", "1080p, 1920 \xc3\x97 1080", 1920, 1080},
     {"4k", "4K, 3840 \xc3\x97 2160", 3840, 2160},
-    {"report", "Report, 1600 \xc3\x97 1200", 1600, 1200},
+    {"report", N_("Report, 1600 \xc3\x97 1200"), 1600, 1200},
 };
 
 const SbRenderSize *sb_render_sizes(size_t *count) {

@@ -1,6 +1,8 @@
 // Gland read-outs with tolerances and customary bands; see the header.
 #include "engine/contact/gland.h"
 
+#include "engine/base/label.h"
+
 #include <math.h>
 
 // The toleranced sizes: number of the input, value and half-width of the tolerance band.
@@ -141,9 +143,9 @@ static void evaluate_moved(double *q, const SbGland *gland, int up, int down) {
 
 const char *sb_band_text(SbBand band) {
   static const char *const text[] = {[SB_BAND_NONE] = "",
-                                     [SB_BAND_BELOW] = "below",
-                                     [SB_BAND_WITHIN] = "within",
-                                     [SB_BAND_ABOVE] = "above"};
+                                     [SB_BAND_BELOW] = SB_LABEL("below"),
+                                     [SB_BAND_WITHIN] = SB_LABEL("within"),
+                                     [SB_BAND_ABOVE] = SB_LABEL("above")};
   return (size_t)band < sizeof text / sizeof text[0] ? text[band] : "";
 }
 

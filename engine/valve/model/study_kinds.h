@@ -2,28 +2,35 @@
 // on the command line.
 #pragma once
 
+#include "engine/base/label.h"
 #include "engine/base/status.h"
 
 // X(enumerator, identifier of the SbStudyDesign sb_study_..., name, title, help): all kinds.
 #define SB_STUDY_LIST(X)                                                                           \
-  X(SB_STUDY_SQUEEZE, squeeze, "squeeze", "Load over squeeze",                                     \
-    "load, peak and width of every fitment model over the squeeze, compared with the solved ring") \
-  X(SB_STUDY_MODELS, models, "models", "Fitment models side by side",                              \
-    "thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, friction")   \
-  X(SB_STUDY_FILM_LAW, film_law, "film-law", "Film law from our own solutions",                    \
-    "h/R = k U^b W^a regressed over a range, with residuals, compared with eq. 7.5, 7.6 and the "  \
-    "limit")                                                                                       \
-  X(SB_STUDY_STORAGE, storage, "storage", "Storage time",                                          \
-    "load, friction, squeeze and modulus against storage time: relaxation, set, swell")            \
-  X(SB_STUDY_LEAK, leak, "leak", "Leak over squeeze",                                              \
-    "leak at rest and leakage per stroke against the squeeze: below which squeeze the valve "      \
-    "leaks")                                                                                       \
-  X(SB_STUDY_STRIBECK, stribeck, "stribeck", "Stribeck curve",                                     \
-    "friction, real contact and film of both seals against the speed, as computed in the cycle")   \
-  X(SB_STUDY_TOLERANCE, tolerance, "tolerance", "Tolerances",                                      \
-    "loads, break-away and return force over the tolerances of the sizes: worst case and RSS")     \
-  X(SB_STUDY_PROPELLANTS, propellants, "propellants", "Propellants over the temperature",          \
-    "pressure force, break-away, minimum return force and dose of each propellant in this valve")
+  X(SB_STUDY_SQUEEZE, squeeze, "squeeze", SB_LABEL("Load over squeeze"),                           \
+    SB_LABEL("load, peak and width of every fitment model over the squeeze, compared with the "    \
+             "solved ring"))                                                                       \
+  X(SB_STUDY_MODELS, models, "models", SB_LABEL("Fitment models side by side"),                    \
+    SB_LABEL("thesis, linear disc and finite-strain ring: loads, peaks, widths, sensitivities, "   \
+             "friction"))                                                                          \
+  X(SB_STUDY_FILM_LAW, film_law, "film-law", SB_LABEL("Film law from our own solutions"),          \
+    SB_LABEL("h/R = k U^b W^a regressed over a range, with residuals, compared with eq. 7.5, 7.6 " \
+             "and the limit"))                                                                     \
+  X(SB_STUDY_STORAGE, storage, "storage", SB_LABEL("Storage time"),                                \
+    SB_LABEL("load, friction, squeeze and modulus against storage time: relaxation, set, swell"))  \
+  X(SB_STUDY_LEAK, leak, "leak", SB_LABEL("Leak over squeeze"),                                    \
+    SB_LABEL("leak at rest and leakage per stroke against the squeeze: below which squeeze the "   \
+             "valve leaks"))                                                                       \
+  X(SB_STUDY_STRIBECK, stribeck, "stribeck", SB_LABEL("Stribeck curve"),                           \
+    SB_LABEL("friction, real contact and film of both seals against the speed, as computed in "    \
+             "the cycle"))                                                                         \
+  X(SB_STUDY_TOLERANCE, tolerance, "tolerance", SB_LABEL("Tolerances"),                            \
+    SB_LABEL("loads, break-away and return force over the tolerances of the sizes: worst case "    \
+             "and RSS"))                                                                           \
+  X(SB_STUDY_PROPELLANTS, propellants, "propellants",                                              \
+    SB_LABEL("Propellants over the temperature"),                                                  \
+    SB_LABEL("pressure force, break-away, minimum return force and dose of each propellant in "    \
+             "this valve"))
 
 // A kind of study; bit i of output.studies is kind i.
 typedef enum {

@@ -38,9 +38,9 @@ SbStudyPanel *sb_study_panel(SbStudy *out, const SbStudyAxis *y, const char *emp
 // Splits "quantity [unit]" into its name, the unit, and the SI unit of that.
 static void put_quantity(const char *text, char name[], size_t size, char si[16], char unit[16]) {
   static const char *const units[][2] = {
-      {"N", "N"},   {"N/m", "N/m"},          {"MPa", "Pa"}, {"mm", "m"},
-      {"nm", "m"},  {"mm/s", "m/s"},         {"day", "s"},  {"°C", "K"},
-      {"mg", "kg"}, {"\xc2\xb5l/h", "m3/s"}, {"nl", "m3"}};
+      {"N", "N"},      {"N/m", "N/m"},         {"MPa", "Pa"}, {"mm", "m"},  {"nm", "m"},
+      {"mm/s", "m/s"}, {SB_LABEL("day"), "s"}, {"°C", "K"},   {"mg", "kg"}, {"\xc2\xb5l/h", "m3/s"},
+      {"nl", "m3"}};
   const char *bracket = strstr(text, " [");
   const size_t length = bracket != NULL ? (size_t)(bracket - text) : strlen(text);
   sb_text(name, size, "%.*s", (int)length, text);
@@ -73,7 +73,7 @@ static void put_design(SbStudyWork *work) {
   for (int p = 0; p < SB_STUDY_PANELS && design->panel[p] != NULL; p++) {
     put_quantity(design->panel[p], axis.quantity, sizeof axis.quantity, axis.si, axis.unit);
     axis.logarithmic = design->logarithmic[p];
-    sb_study_panel(out, &axis, "no value in this range");
+    sb_study_panel(out, &axis, SB_LABEL("no value in this range"));
   }
   for (int k = 0; k < SB_STUDY_COLUMNS && design->column[k] != NULL; k++) {
     sb_study_column(work, design->column[k], design->digits[k], design->line[k], design->value[k]);

@@ -104,12 +104,12 @@ static Regression regress(SbStudyWork *work) {
       .U_speed = work->scene->viscosity / 2 / unit,
       .W_load = 1 / unit,
       .R = seal->radius,
-      .laws = {{"ours, central", CENTRAL, {.k = 0}},
-               {"ours, minimum", LEAST, {.k = 0}},
-               {"thesis, eq. 7.5", CENTRAL, {.k = 1.492, .a = 0.5434, .b = -0.2893}},
+      .laws = {{SB_LABEL("ours, central"), CENTRAL, {.k = 0}},
+               {SB_LABEL("ours, minimum"), LEAST, {.k = 0}},
+               {SB_LABEL("thesis, eq. 7.5"), CENTRAL, {.k = 1.492, .a = 0.5434, .b = -0.2893}},
                {"Karaszkiewicz, eq. 7.6", CENTRAL, {.k = 4.4, .a = 0.65, .b = -0.21}},
-               {"thin-film limit", CENTRAL, {.k = 3.77334, .a = 0.6, .b = -0.2}},
-               {"thin-film limit, minimum", LEAST, {.k = 3.00434, .a = 0.6, .b = -0.2}}}};
+               {SB_LABEL("thin-film limit"), CENTRAL, {.k = 3.77334, .a = 0.6, .b = -0.2}},
+               {SB_LABEL("thin-film limit, minimum"), LEAST, {.k = 3.00434, .a = 0.6, .b = -0.2}}}};
   SbReport report;
   for (int i = 0; i < GRID; i++) {
     out.speed[i] = sb_study_place(work, i % SPEEDS, SPEEDS);
@@ -134,7 +134,7 @@ static double over_law(const Regression *ours, const Law *law, int i) {
 static void draw(SbStudyWork *work, const Regression *ours) {
   SbStudyPanel *panel = work->out->panel;
   const double W = load_of(work, MIDDLE) * ours->W_load;
-  SbStudySeries *dots = sb_study_series(&panel[0], SB_STUDY_DOTS, "solved");
+  SbStudySeries *dots = sb_study_series(&panel[0], SB_STUDY_DOTS, SB_LABEL("solved"));
   for (int i = MIDDLE * SPEEDS; i < (MIDDLE + 1) * SPEEDS; i++) {
     sb_study_point(dots, ours->speed[i], ours->R * ours->H[CENTRAL][i]);
   }
@@ -144,7 +144,7 @@ static void draw(SbStudyWork *work, const Regression *ours) {
     }
     const bool own = law == ours->laws;
     SbStudyStyle style = own ? SB_STUDY_CURVE : SB_STUDY_REFERENCE;
-    SbStudySeries *line = sb_study_series(&panel[0], style, own ? "our law" : law->name);
+    SbStudySeries *line = sb_study_series(&panel[0], style, own ? SB_LABEL("our law") : law->name);
     for (int i = 0; i < CURVE; i++) {
       double speed = sb_study_place(work, i, CURVE);
       sb_study_point(line, speed, ours->R * sb_film_law(&law->law, speed * ours->U_speed, W));
@@ -204,9 +204,9 @@ static void make(SbStudyWork *work) {
   for (int l = 0; l < LAWS; l++) {
     put_row(work, &ours, &ours.laws[l]);
   }
-  sb_study_row(out, "solved, central")->value[8] = film[CENTRAL];
-  sb_study_row(out, "solved, minimum")->value[8] = film[LEAST];
-  sb_study_mark(work, model->speed, "drive");
+  sb_study_row(out, SB_LABEL("solved, central"))->value[8] = film[CENTRAL];
+  sb_study_row(out, SB_LABEL("solved, minimum"))->value[8] = film[LEAST];
+  sb_study_mark(work, model->speed, SB_LABEL("drive"));
   sb_message(out->validity, sizeof out->validity,
              "our law: U %.2g to %.2g, W %.3g to %.3g only; the limit: thin films (M above 100)",
              work->lo * ours.U_speed, work->hi * ours.U_speed, range->load_min * ours.W_load,
@@ -223,15 +223,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_film_law = {
-    .x = "sliding speed [mm/s]",
+    .x = SB_QUANTITY("sliding speed", "mm/s"),
     .x_logarithmic = true,
-    .panel = {"central film [nm]", "law over the solved film", "solved against our law [%]"},
+    .panel = {SB_QUANTITY("central film", "nm"), SB_LABEL("law over the solved film"),
+              SB_QUANTITY("solved against our law", "%")},
     .logarithmic = {true, true, false},
     .range = offsetof(SbStudyRange, speed_min),
     .row_heading = "h/R = k U^\xce\xb2 W^\xce\xb1",
     .column = {"k", "\xc2\xb1 of k [%]", "\xce\xb2 of U", "\xc2\xb1 of \xce\xb2", "\xce\xb1 of W",
-               "\xc2\xb1 of \xce\xb1", "residual, rms [%]", "residual, largest [%]",
-               "film at the drive's speed [nm]"},
+               "\xc2\xb1 of \xce\xb1", SB_QUANTITY("residual, rms", "%"),
+               SB_QUANTITY("residual, largest", "%"),
+               SB_QUANTITY("film at the drive's speed", "nm")},
     .digits = {4, 3, 4, 3, 4, 3, 3, 3, 3},
     .models = "reynolds, half-plane, smooth, isoviscous; thesis eq. 7.5; Karaszkiewicz eq. 7.6; "
               "exact limit",

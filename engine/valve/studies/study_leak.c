@@ -128,10 +128,10 @@ static int choose_places(double at[POINTS + FINE], SbStudyWork *work, int line, 
 // ring at a tenth of the pressure too; at full pressure columns of the table.
 static void draw(SbStudyWork *work, double closing) {
   static const char *const column[][2] = {
-      {"pressure", "MPa"}, {"leak at rest", "\xc2\xb5l/h"}, {"per stroke", "nl"}};
+      {"pressure", "MPa"}, {SB_LABEL("leak at rest"), "\xc2\xb5l/h"}, {"per stroke", "nl"}};
   SbStudy *out = work->out;
   SbStudyPanel *pressure = &out->panel[PRESSURE], *rest = &out->panel[LEAK];
-  sb_text(rest->empty, sizeof rest->empty, "no leak: every contact is closed");
+  sb_text(rest->empty, sizeof rest->empty, SB_LABEL("no leak: every contact is closed"));
   const SbFitKind *fit = sb_fit_kind(work->scene->fit);
   const int own = fit->section ? RING : fit->body ? DISC : OWN;
   const int lines[LINES] = {line_of(own, 0), line_of(DISC, 0), line_of(RING, 0), line_of(own, 1),
@@ -161,7 +161,7 @@ static void draw(SbStudyWork *work, double closing) {
       sb_study_column(work, text, 0, line, q);
     }
   }
-  sb_study_level(work, pressure, "channels close", closing);
+  sb_study_level(work, pressure, SB_LABEL("channels close"), closing);
 }
 
 // Rows by squeeze at the canister's pressure, then at its tenth; the models at full pressure are
@@ -195,7 +195,7 @@ static void make(SbStudyWork *work) {
   draw(work, closing);
   table(work);
   double design = model->seal[SB_OUTER].squeeze;
-  sb_study_mark(work, design, "as designed, %.1f %%", 100 * design);
+  sb_study_mark(work, design, SB_LABEL("as designed") ", %.1f %%", 100 * design);
   bool own = !sb_fit_kind(model->fit)->body;
   sb_message(out->models, sizeof out->models,
              "fit %s%sdisc, ring; percolation by Persson's contact; film as the scene's",
@@ -207,12 +207,13 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_leak = {
-    .x = "squeeze of the free section [%]",
-    .panel = {"pressure of the rubber on the bore [MPa]", "leak at rest [\xc2\xb5l/h]",
-              "carried out per stroke [nl]"},
+    .x = SB_QUANTITY("squeeze of the free section", "%"),
+    .panel = {SB_QUANTITY("pressure of the rubber on the bore", "MPa"),
+              SB_QUANTITY("leak at rest", "\xc2\xb5l/h"),
+              SB_QUANTITY("carried out per stroke", "nl")},
     .logarithmic = {false, true, false},
     .range = offsetof(SbStudyRange, squeeze_min),
-    .row_heading = "squeeze, pressure",
+    .row_heading = SB_LABEL("squeeze, pressure"),
     .validity = "mean contact pressure, liquid without vapour; gaps below 3 \xcf\x83; no value "
                 "where the ring has no contact without pressure",
     .grid = true,

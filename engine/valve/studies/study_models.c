@@ -25,10 +25,10 @@ static const struct {
   const char *name;
   SbStudyStyle style;
 } models[MODELS] = {
-    [THESIS] = {"thesis, printed", SB_STUDY_DOTS},
+    [THESIS] = {SB_LABEL("thesis, printed"), SB_STUDY_DOTS},
     [DISC_THESIS] = {"disc-thesis", SB_STUDY_CURVE},
-    [DISC] = {"disc", SB_STUDY_CURVE},
-    [RING] = {"ring", SB_STUDY_CURVE},
+    [DISC] = {SB_LABEL("disc"), SB_STUDY_CURVE},
+    [RING] = {SB_LABEL("ring"), SB_STUDY_CURVE},
     [KARASZKIEWICZ] = {"Karaszkiewicz", SB_STUDY_REFERENCE},
 };
 
@@ -135,8 +135,8 @@ static void put_table(SbStudyWork *work) {
   }
   fill_row(sb_study_row(work->out, "for d + 0.02 mm")->value, work, 1, 2, canister);
   fill_row(sb_study_row(work->out, "for ID + 0.02 mm")->value, work, 3, 4, canister);
-  SbStudyRow *area = sb_study_row(work->out, "friction by shear strength");
-  SbStudyRow *both = sb_study_row(work->out, "friction with m");
+  SbStudyRow *area = sb_study_row(work->out, SB_LABEL("friction by shear strength"));
+  SbStudyRow *both = sb_study_row(work->out, SB_LABEL("friction with m"));
   sb_text(area->si, sizeof area->si, "1");
   sb_text(both->si, sizeof both->si, "1");
   for (int m = 0; m < TABLE_MODELS; m++) {
@@ -156,7 +156,7 @@ static void make(SbStudyWork *work) {
   }
   sb_study_level(work, &out->panel[3], "measured 0.51", 0.51);
   sb_study_level(work, &out->panel[3], "table 7.8: 0.4", 0.4);
-  sb_study_mark(work, model->canister_pressure, "canister");
+  sb_study_mark(work, model->canister_pressure, SB_LABEL("canister"));
   put_table(work);
   sb_message(out->models, sizeof out->models, "disc-thesis, disc, ring, Karaszkiewicz%s",
              is_thesis(model) ? "; printed: thesis tables 7.2 to 7.4, 7.8, 7.9" : "");
@@ -170,13 +170,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_models = {
-    .x = "pressure on the outer seal [MPa]",
-    .panel = {"load [N]", "peak pressure [MPa]", "contact width [mm]",
-              "friction coefficient by shear strength"},
-    .row_heading = "case",
-    .column = {"load thesis [N]", "load disc-thesis [N]", "load disc [N]", "load ring [N]",
-               "peak thesis [MPa]", "peak disc-thesis [MPa]", "peak disc [MPa]", "peak ring [MPa]",
-               "width thesis [mm]", "width disc-thesis [mm]", "width disc [mm]", "width ring [mm]"},
+    .x = SB_QUANTITY("pressure on the outer seal", "MPa"),
+    .panel = {SB_QUANTITY("load", "N"), SB_QUANTITY("peak pressure", "MPa"),
+              SB_QUANTITY("contact width", "mm"),
+              SB_LABEL("friction coefficient by shear strength")},
+    .row_heading = SB_LABEL("case"),
+    .column = {SB_QUANTITY("load thesis", "N"), "load disc-thesis [N]",
+               SB_QUANTITY("load disc", "N"), SB_QUANTITY("load ring", "N"),
+               SB_QUANTITY("peak thesis", "MPa"), "peak disc-thesis [MPa]",
+               SB_QUANTITY("peak disc", "MPa"), SB_QUANTITY("peak ring", "MPa"),
+               SB_QUANTITY("width thesis", "mm"), "width disc-thesis [mm]",
+               SB_QUANTITY("width disc", "mm"), SB_QUANTITY("width ring", "mm")},
     .line = {THESIS, DISC_THESIS, DISC, RING, THESIS, DISC_THESIS, DISC, RING, THESIS, DISC_THESIS,
              DISC, RING},
     .value = {0, 0, 0, 0, 1, 1, 1, 1, 2, 2, 2, 2},

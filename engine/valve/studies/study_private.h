@@ -7,6 +7,7 @@
 // design->solve() computes a place when it is first read.
 #pragma once
 
+#include "engine/base/label.h"
 #include "engine/contact/fit.h"
 #include "engine/film/film.h"
 #include "engine/film/laws.h"

@@ -460,7 +460,7 @@ static void make(SbStudyWork *work) {
   sb_study_note(out, "The stem comes back from, in °C: %s.", starts);
   sb_study_note(out, "\"by\": change of the return margin from 20 °C, all else as there.");
   note_modulus(work);
-  sb_study_mark(work, model->temperature, "this scene");
+  sb_study_mark(work, model->temperature, SB_LABEL("this scene"));
   if (out->models[0] == '\0') {
     sb_message(out->models, sizeof out->models, "fit %s, film %s, a cycle at each temperature",
                sb_fit_kind(model->fit)->name, sb_film_kind(model->film)->name);
@@ -470,12 +470,16 @@ static void make(SbStudyWork *work) {
 enum { ANSWERS = FLUIDS * (POINTS + TABLE * PARTS) };
 
 const SbStudyDesign sb_study_propellants = {
-    .x = "canister temperature [°C]",
-    .panel = {"pressure force [N]", "break-away force [N]", "return margin [N]", "dose [mg]"},
+    .x = SB_QUANTITY("canister temperature", "°C"),
+    .panel = {SB_QUANTITY("pressure force", "N"), SB_QUANTITY("break-away force", "N"),
+              SB_QUANTITY("return margin", "N"), SB_QUANTITY("dose", "mg")},
     .range = offsetof(SbStudyRange, temperature_min),
-    .row_heading = "propellant",
-    .column = {"pressure force [N]", "break-away [N]", "return margin [N]", "dose [mg]",
-               "change [N]", "by pressure [N]", "by film [N]", "by rubber [N]", "by expansion [N]"},
+    .row_heading = SB_LABEL("propellant"),
+    .column = {SB_QUANTITY("pressure force", "N"), SB_QUANTITY("break-away", "N"),
+               SB_QUANTITY("return margin", "N"), SB_QUANTITY("dose", "mg"),
+               SB_QUANTITY("change", "N"), SB_QUANTITY("by pressure", "N"),
+               SB_QUANTITY("by film", "N"), SB_QUANTITY("by rubber", "N"),
+               SB_QUANTITY("by expansion", "N")},
     .validity = "saturated propellant; the range of its figures, -40 to 80 °C, and above the "
                 "rubber's glass transition",
     .grid = true,

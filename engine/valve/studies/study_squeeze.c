@@ -18,9 +18,9 @@ static const struct {
   SbStudyStyle style;
   int points; // over the range
 } models[MODELS] = {
-    [RING] = {"ring", SB_STUDY_CURVE, SB_SQUEEZE_RING_POINTS},
-    [RING_UNSTRETCHED] = {"ring, not stretched", SB_STUDY_CURVE, SB_SQUEEZE_RING_POINTS},
-    [DISC] = {"disc", SB_STUDY_CURVE, SB_SQUEEZE_DISC_POINTS},
+    [RING] = {SB_LABEL("ring"), SB_STUDY_CURVE, SB_SQUEEZE_RING_POINTS},
+    [RING_UNSTRETCHED] = {SB_LABEL("ring, not stretched"), SB_STUDY_CURVE, SB_SQUEEZE_RING_POINTS},
+    [DISC] = {SB_LABEL("disc"), SB_STUDY_CURVE, SB_SQUEEZE_DISC_POINTS},
     [DISC_THESIS] = {"disc-thesis", SB_STUDY_CURVE, SB_SQUEEZE_DISC_POINTS},
     [LINDLEY] = {"Lindley", SB_STUDY_REFERENCE, 77},
     [GREEN] = {"Green & English", SB_STUDY_REFERENCE, 77},
@@ -42,8 +42,9 @@ static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   const double design = model->seal[SB_OUTER].squeeze;
-  sb_study_mark(work, design, "as designed, %.1f %%", 100 * design);
-  sb_text(out->row_heading, sizeof out->row_heading, "as designed, %.1f %%", 100 * design);
+  sb_study_mark(work, design, SB_LABEL("as designed") ", %.1f %%", 100 * design);
+  sb_text(out->row_heading, sizeof out->row_heading, SB_LABEL("as designed") ", %.1f %%",
+          100 * design);
   for (int m = 0; m < MODELS; m++) {
     sb_study_curves(work, models[m].style, models[m].name, m, NULL, models[m].points);
     double *value = sb_study_row(out, "%s", models[m].name)->value;
@@ -65,13 +66,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_squeeze = {
-    .x = "squeeze of the free section [%]",
-    .panel = {"load [N]", "peak pressure [MPa]", "contact width [mm]"},
+    .x = SB_QUANTITY("squeeze of the free section", "%"),
+    .panel = {SB_QUANTITY("load", "N"), SB_QUANTITY("peak pressure", "MPa"),
+              SB_QUANTITY("contact width", "mm")},
     .range = offsetof(SbStudyRange, squeeze_min),
-    .column = {"load [N]", "load against ring [%]", "peak [MPa]", "peak against ring [%]",
-               "width [mm]", "width against ring [%]", "load against ring at 10 % [%]",
-               "load against ring at 20 % [%]", "load against ring at 30 % [%]",
-               "load against ring at 40 % [%]"},
+    .column = {SB_QUANTITY("load", "N"), SB_QUANTITY("load against ring", "%"),
+               SB_QUANTITY("peak", "MPa"), SB_QUANTITY("peak against ring", "%"),
+               SB_QUANTITY("width", "mm"), SB_QUANTITY("width against ring", "%"),
+               SB_QUANTITY("load against ring at 10 %", "%"),
+               SB_QUANTITY("load against ring at 20 %", "%"),
+               SB_QUANTITY("load against ring at 30 %", "%"),
+               SB_QUANTITY("load against ring at 40 %", "%")},
     .difference =
         {[1] = true, [3] = true, [5] = true, [6] = true, [7] = true, [8] = true, [9] = true},
     .models = "ring, disc, disc-thesis, Lindley (eq. 2.8, 2.10), Green & English (radial), Hertz, "

@@ -17,13 +17,13 @@ enum { LOAD, FRICTION, SQUEEZE, MODULUS, SECTION, NETWORK, SET, UPTAKE };
 static const struct {
   const char *name;
   double time; // [s]
-} times[TIMES] = {{"new", 0},
-                  {"1 hour", 3600},
-                  {"1 day", 86400},
-                  {"7 days", 7 * 86400.0},
-                  {"30 days", 30 * 86400.0},
-                  {"1 year", 365 * 86400.0},
-                  {"3 years", 3 * 365 * 86400.0}};
+} times[TIMES] = {{SB_LABEL("new"), 0},
+                  {SB_LABEL("1 hour"), 3600},
+                  {SB_LABEL("1 day"), 86400},
+                  {SB_LABEL("7 days"), 7 * 86400.0},
+                  {SB_LABEL("30 days"), 30 * 86400.0},
+                  {SB_LABEL("1 year"), 365 * 86400.0},
+                  {SB_LABEL("3 years"), 3 * 365 * 86400.0}};
 
 // The grid has both seals in one line, the outer's figures first.
 enum { BOUNDARY = 1, VISCOUS, SECOND, ASKED = 9 };
@@ -47,8 +47,8 @@ static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
   const double scene_time = model->seal[SB_OUTER].stored.storage_time;
-  sb_study_curves(work, SB_STUDY_CURVE, "outer seal", SB_OUTER, NULL, POINTS);
-  sb_study_curves(work, SB_STUDY_CURVE, "inner seal", SB_INNER, NULL, POINTS);
+  sb_study_curves(work, SB_STUDY_CURVE, SB_LABEL("outer seal"), SB_OUTER, NULL, POINTS);
+  sb_study_curves(work, SB_STUDY_CURVE, SB_LABEL("inner seal"), SB_INNER, NULL, POINTS);
   for (size_t p = 0; p < out->panel_count; p++) {
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
       out->panel[p].series[seal].seal = 1 + seal;
@@ -61,7 +61,7 @@ static void make(SbStudyWork *work) {
   }
   SbStudyRow *scene = sb_study_row(out, "this scene, %.3g days", scene_time / 86400);
   sb_study_cells(scene->value, work, scene_time, 0);
-  sb_study_mark(work, scene_time, "this scene");
+  sb_study_mark(work, scene_time, SB_LABEL("this scene"));
   sb_message(out->models, sizeof out->models, "fit %s, film %s; rubber: %d Prony terms, %s",
              sb_fit_kind(model->fit)->name, sb_film_kind(model->film)->name,
              (int)model->rubber.terms, model->rubber.swell_mass > 0 ? "Fickian swell" : "no swell");
@@ -81,15 +81,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_storage = {
-    .x = "storage time [day]",
+    .x = SB_QUANTITY("storage time", "day"),
     .x_logarithmic = true,
-    .panel = {"load [N]", "sliding friction [N]", "squeeze [%]", "modulus after storage [MPa]"},
+    .panel = {SB_QUANTITY("load", "N"), SB_QUANTITY("sliding friction", "N"),
+              SB_QUANTITY("squeeze", "%"), SB_QUANTITY("modulus after storage", "MPa")},
     .range = offsetof(SbStudyRange, time_min),
-    .row_heading = "stored for",
-    .column = {"load, outer seal [N]", "load, inner seal [N]", "friction, outer seal [N]",
-               "friction, inner seal [N]", "section, free [mm]", "squeeze [%]",
-               "modulus after storage [MPa]", "network left [%]", "compression set [%]",
-               "uptake of its equilibrium [%]"},
+    .row_heading = SB_LABEL("stored for"),
+    .column = {SB_QUANTITY("load, outer seal", "N"), SB_QUANTITY("load, inner seal", "N"),
+               SB_QUANTITY("friction, outer seal", "N"), SB_QUANTITY("friction, inner seal", "N"),
+               SB_QUANTITY("section, free", "mm"), SB_QUANTITY("squeeze", "%"),
+               SB_QUANTITY("modulus after storage", "MPa"), SB_QUANTITY("network left", "%"),
+               SB_QUANTITY("compression set", "%"), SB_QUANTITY("uptake of its equilibrium", "%")},
     .line = {SB_OUTER, SB_INNER, SB_OUTER, SB_INNER},
     .value = {LOAD, LOAD, FRICTION, FRICTION, SECTION, SQUEEZE, MODULUS, NETWORK, SET, UPTAKE},
     .validity = "relaxation to ten times its longest time; swell below 50 % by volume; the "

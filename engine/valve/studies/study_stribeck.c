@@ -21,10 +21,11 @@ static const struct {
   const char *name, *friction;
   int seal, way;
 } lines[LINES] = {
-    {"outer seal, in", "seals.outer.contact.in_stroke.friction_N", SB_OUTER, SB_CYCLE_IN},
-    {"outer seal, back", "seals.outer.contact.return.friction_N", SB_OUTER, SB_CYCLE_OUT},
-    {"inner seal, in", "seals.inner.contact.in_stroke.friction_N", SB_INNER, SB_CYCLE_IN},
-    {"inner seal, back", "seals.inner.contact.return.friction_N", SB_INNER, SB_CYCLE_OUT}};
+    {SB_LABEL("outer seal, in"), "seals.outer.contact.in_stroke.friction_N", SB_OUTER, SB_CYCLE_IN},
+    {SB_LABEL("outer seal, back"), "seals.outer.contact.return.friction_N", SB_OUTER, SB_CYCLE_OUT},
+    {SB_LABEL("inner seal, in"), "seals.inner.contact.in_stroke.friction_N", SB_INNER, SB_CYCLE_IN},
+    {SB_LABEL("inner seal, back"), "seals.inner.contact.return.friction_N", SB_INNER,
+     SB_CYCLE_OUT}};
 
 static void solve(double *value, SbStudyWork *work, int line, double speed) {
   SbSealState state;
@@ -120,10 +121,10 @@ static void make(SbStudyWork *work) {
                                 : sb_study_row(out, "%.3g m/s", speed);
     sb_study_cells(row->value, work, speed, 0);
   }
-  sb_study_level(work, &out->panel[2], "film = roughness", 1);
-  sb_study_mark(work, own[0], own[0] == own[1] ? "cycle" : "cycle, in");
+  sb_study_level(work, &out->panel[2], SB_LABEL("film = roughness"), 1);
+  sb_study_mark(work, own[0], own[0] == own[1] ? SB_LABEL("cycle") : SB_LABEL("cycle, in"));
   if (own[0] != own[1]) {
-    sb_study_mark(work, own[1], "cycle, back");
+    sb_study_mark(work, own[1], SB_LABEL("cycle, back"));
   }
   account(work);
   sb_study_note(out, "Roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on %s.",
@@ -133,15 +134,17 @@ static void make(SbStudyWork *work) {
 }
 
 const SbStudyDesign sb_study_stribeck = {
-    .x = "sliding speed [mm/s]",
+    .x = SB_QUANTITY("sliding speed", "mm/s"),
     .x_logarithmic = true,
-    .panel = {"coefficient of friction", "real contact [%]", "central film over roughness"},
+    .panel = {SB_LABEL("coefficient of friction"), SB_QUANTITY("real contact", "%"),
+              SB_LABEL("central film over roughness")},
     .logarithmic = {true, false, true},
     .range = offsetof(SbStudyRange, speed_min),
-    .row_heading = "outer seal, in, at",
-    .column = {"central film [nm]", "minimum film [nm]", "film over roughness",
-               "boundary friction [N]", "viscous friction [N]", "coefficient",
-               "load on asperities [%]", "real contact [%]"},
+    .row_heading = SB_LABEL("outer seal, in, at"),
+    .column = {SB_QUANTITY("central film", "nm"), SB_QUANTITY("minimum film", "nm"),
+               SB_LABEL("film over roughness"), SB_QUANTITY("boundary friction", "N"),
+               SB_QUANTITY("viscous friction", "N"), SB_LABEL("coefficient"),
+               SB_QUANTITY("load on asperities", "%"), SB_QUANTITY("real contact", "%")},
     .value = {CENTRAL, LEAST, RATIO, BOUNDARY, VISCOUS, COEFFICIENT, SHARE, AREA},
     .models = "the scene's own, at the pressures of the cycle",
     .validity =

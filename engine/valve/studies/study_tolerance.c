@@ -23,13 +23,15 @@ static const struct {
   const char *place, *name;
   SbParamId band;
 } sizes[SIZES] = {
-    {"outer_section", "section, outer ring", SB_P_SEAL_OUTER_SECTION_DIAMETER_TOLERANCE},
-    {"inner_section", "section, inner ring", SB_P_SEAL_INNER_SECTION_DIAMETER_TOLERANCE},
-    {"outer_inside", "inner diameter, outer ring", SB_P_SEAL_OUTER_INNER_DIAMETER_TOLERANCE},
-    {"inner_inside", "inner diameter, inner ring", SB_P_SEAL_INNER_INNER_DIAMETER_TOLERANCE},
-    {"space", "radial space", SB_P_GLAND_RADIAL_SPACE_TOLERANCE},
-    {"bore", "bore", SB_P_BORE_DIAMETER_TOLERANCE},
-    {"stem", "stem", SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE},
+    {"outer_section", SB_LABEL("section, outer ring"), SB_P_SEAL_OUTER_SECTION_DIAMETER_TOLERANCE},
+    {"inner_section", SB_LABEL("section, inner ring"), SB_P_SEAL_INNER_SECTION_DIAMETER_TOLERANCE},
+    {"outer_inside", SB_LABEL("inner diameter, outer ring"),
+     SB_P_SEAL_OUTER_INNER_DIAMETER_TOLERANCE},
+    {"inner_inside", SB_LABEL("inner diameter, inner ring"),
+     SB_P_SEAL_INNER_INNER_DIAMETER_TOLERANCE},
+    {"space", SB_LABEL("radial space"), SB_P_GLAND_RADIAL_SPACE_TOLERANCE},
+    {"bore", SB_LABEL("bore"), SB_P_BORE_DIAMETER_TOLERANCE},
+    {"stem", SB_LABEL("stem"), SB_P_STEM_PRESSURE_DIAMETER_TOLERANCE},
 };
 
 static void derive(double *value, SbStudyWork *work, int line, double x) {
@@ -84,11 +86,11 @@ static void make(SbStudyWork *work) {
     sb_study_curves(work, SB_STUDY_CURVE, sizes[size].name, size, NULL, 2 * STEPS + 1);
     band[size] = 1e3 * sb_params_get(&model->params, sizes[size].band);
   }
-  put_row(work, "load of the outer seal", LOAD_OUTER);
-  put_row(work, "load of the inner seal", LOAD_INNER);
-  put_row(work, "break-away force", BREAKAWAY);
-  put_row(work, "return margin", RETURN);
-  put_row(work, "dose", DOSE);
+  put_row(work, SB_LABEL("load of the outer seal"), LOAD_OUTER);
+  put_row(work, SB_LABEL("load of the inner seal"), LOAD_INNER);
+  put_row(work, SB_LABEL("break-away force"), BREAKAWAY);
+  put_row(work, SB_LABEL("return margin"), RETURN);
+  put_row(work, SB_LABEL("dose"), DOSE);
   SbStudyRow *dose = &out->row[out->row_count - 1];
   sb_text(dose->si, sizeof dose->si, "kg");
   sb_text(dose->unit, sizeof dose->unit, "mg");
@@ -103,13 +105,17 @@ static void make(SbStudyWork *work) {
 enum { CYCLES = 2 * STEPS * SIZES + 1 + 2 * FIGURES };
 
 const SbStudyDesign sb_study_tolerance = {
-    .x = "place in the size's tolerance band",
-    .panel = {"load of the outer seal [N]", "break-away force [N]", "return margin [N]"},
-    .row_heading = "figure",
-    .column = {"nominal [N]", "worst case, minimum [N]", "worst case, maximum [N]",
-               "root sum square, minimum [N]", "root sum square, maximum [N]", "by d, outer [N]",
-               "by d, inner [N]", "by ID, outer [N]", "by ID, inner [N]", "by g [N]", "by bore [N]",
-               "by stem [N]"},
+    .x = SB_LABEL("place in the size's tolerance band"),
+    .panel = {SB_QUANTITY("load of the outer seal", "N"), SB_QUANTITY("break-away force", "N"),
+              SB_QUANTITY("return margin", "N")},
+    .row_heading = SB_LABEL("figure"),
+    .column = {SB_QUANTITY("nominal", "N"), SB_QUANTITY("worst case, minimum", "N"),
+               SB_QUANTITY("worst case, maximum", "N"),
+               SB_QUANTITY("root sum square, minimum", "N"),
+               SB_QUANTITY("root sum square, maximum", "N"), SB_QUANTITY("by d, outer", "N"),
+               SB_QUANTITY("by d, inner", "N"), SB_QUANTITY("by ID, outer", "N"),
+               SB_QUANTITY("by ID, inner", "N"), SB_QUANTITY("by g", "N"),
+               SB_QUANTITY("by bore", "N"), SB_QUANTITY("by stem", "N")},
     .validity = "worst case: where every figure rises or falls with every size; root sum of "
                 "squares: independent sizes, linear",
     .grid = true,
