@@ -23,8 +23,9 @@ void sb_reader_read_pipes(void);
 bool sb_reader_reads_pipes(void);
 
 // Returns the content of the regular file `path` (or pipe, see sb_reader_read_pipes()) of at most
-// `bytes_max` bytes, *length bytes and a terminating 0; freed by g_free(). Never blocks on anything
-// else. NULL with one issue, in which `shown` names the file, if it cannot be read or is too large.
+// `bytes_max` bytes, *length bytes and a terminating 0; freed by g_free(). Does not
+// wait for anything that is neither. NULL with one issue, in which `shown` names the file, if it
+// cannot be read or is too large.
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues);
 
@@ -34,7 +35,7 @@ char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t by
                             GPtrArray *issues);
 
 // Returns all groups and keys of the `length` bytes of a text, in their order, as a list of SbEntry
-// that owns its elements; freed by g_ptr_array_unref(), never NULL. Other lines, text that is not
-// UTF-8 and duplicate keys and groups become issues in which `shown` names the file; a duplicate is
-// omitted.
+// that owns its elements; freed by g_ptr_array_unref(), never NULL. Comments and empty lines are
+// skipped. Other lines, text that is not UTF-8 and duplicate keys and groups become issues in which
+// `shown` names the file; of a duplicate only its own line is omitted.
 GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GPtrArray *issues);

@@ -16,7 +16,7 @@ double sb_timing_middle(double *times, size_t count);
 // Solves once, from scratch, and writes the time that the solve took to *wall_s [s].
 typedef SbStatus (*SbTimedSolve)(void *data, double *wall_s);
 
-// Calls `solve` once, and while it returns SB_OK and the budget of 0.5 s lasts, up to 20 times
-// more. Returns the first status that is not SB_OK, else SB_OK. *wall_s is the median of the calls
-// after the first (of the first if there was no other) [s].
+// Calls `solve` once, and while it returns SB_OK and the budget of 0.5 s lasts (the first call
+// counts), up to 20 times more. Returns the first status that is not SB_OK, else SB_OK. *wall_s is
+// the median of the calls after the first (of the first if there was no other) [s].
 SbStatus sb_timing_median(double *wall_s, SbTimedSolve solve, void *data);

@@ -9,5 +9,6 @@
 double sb_legend_line(SbCanvas *c, double right, double y, double room, SbStroke stroke,
                       const char *name);
 
-// Draws the legend of predicted curves that ends at x = `right`. Returns its width [px].
+// Draws the legend of predicted curves that ends at x = `right`, with its text's baseline at `y`.
+// Returns its width [px].
 double sb_legend_predicted(SbCanvas *c, double right, double y);

@@ -12,9 +12,9 @@ typedef struct {
   SbColor seal[SB_SEAL_COUNT];                               // of each seal
   SbColor fluid_line, now;                                   // film and flow; present instant
   SbColor housing, housing_hatch, stem, stem_hatch, outline; // of the parts
-  SbDrawMap field;                                           // stress in a seal
-  SbDrawMap diverging;                                       // a signed field, -1 to 1
-  SbDrawMap fluid; // gauge pressure, 0 to SB_PALETTE_FLUID_FULL
+  SbDrawMap field;     // stress in a seal, 0 to 1 of its range
+  SbDrawMap diverging; // a signed field, -1 to 1
+  SbDrawMap fluid;     // gauge pressure, 0 to SB_PALETTE_FLUID_FULL
   // Surfaces in three dimensions by brightness, 0 to 1.
   SbDrawMap housing_shade, stem_shade, seal_shade[SB_SEAL_COUNT];
 } SbPalette;

@@ -28,12 +28,13 @@ void sb_prediction_free(SbPrediction *prediction);
 bool sb_prediction_make(SbPrediction *prediction, const SbDisplayedRun *base,
                         const SbParams *params, const SbModel *model);
 
-// Returns whether parameter `id` differs between two sets of values; false if it only follows its
-// parent in both.
+// Returns whether parameter `id` differs between two sets of values; false if it has a value of its
+// own in neither (seal.outer.modulus that follows seal.modulus).
 bool sb_prediction_differs(const SbParams *a, const SbParams *b, int id);
 
-// Predicts the frame and the contacts at index `frame` of the base (at most its last one), for
-// sb_prediction_chart(). Only after sb_prediction_make() returned true.
+// Predicts the frame and the contacts at index `frame` of the base for sb_prediction_chart(); a
+// larger index is its last frame. sb_prediction_make() does so for frame 0. Only after it returned
+// true.
 void sb_prediction_show(SbPrediction *prediction, size_t frame);
 
 // Returns the prediction for charts. Borrowed; its content changes with the next call of

@@ -7,9 +7,9 @@
 // the best design near each start.
 //
 // Robust design: each limit is tightened by a multiple of its figure's scatter over the tolerances,
-// until the probability that all limits are met, by the most probable failure of each side (FORM,
-// at least the sum of their probabilities), is the required one. Samples then check it, and correct
-// it once if FORM is inaccurate.
+// until the probability that all limits are met is the required one. It is 1 minus the sum of the
+// probabilities that each limit is violated, each by its most probable failure (FORM). Samples then
+// check it, and correct it once if FORM is inaccurate.
 #pragma once
 
 #include "app/study/shares.h"
@@ -48,7 +48,8 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
 // Frees what the result owns.
 void sb_design_release(SbDesign *design);
 
-// Returns the variables that are at a bound, "gland.radial_space (upper), ..."; NULL: none.
+// Returns the variables that are at a bound, "gland.radial_space (upper), ..."; NULL: none. This
+// and the next function need a design that was found.
 char *sb_design_bounds(const SbDesign *design, const SbStudyFile *study);
 
 // Returns the distance of a figure from the nearer end of limit number `limit` of study->limits

@@ -75,8 +75,8 @@ typedef struct {
 // Returns the value of a row [si] in the struct `of`, whose type the row is made for.
 double sb_result_value(const SbResultRow *row, const void *of);
 
-// Writes a number for each row of the list from `row` to a key of NULL, from the struct `of`; null
-// for all if `found` is false.
+// Writes the value of each row of the list from `row` to a key of NULL, from the struct `of`; null
+// for all if `found` is false. Error estimates are rows of their own.
 void sb_json_rows(SbJson *json, const SbResultRow *row, const void *of, bool found);
 
 // Writes the array "warnings" of objects with code, text and parameter (null: none).

@@ -14,7 +14,7 @@ typedef struct SbScreen SbScreen;
 
 // Kind of an input.
 typedef enum {
-  SB_KEY_CHARACTER, // a letter, digit, sign or blank: SbKey.character
+  SB_KEY_CHARACTER, // a letter, digit, sign or blank: SbKey.character; Ctrl+C and Ctrl+Z too
   SB_KEY_UP,
   SB_KEY_DOWN,
   SB_KEY_LEFT,

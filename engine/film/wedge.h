@@ -45,10 +45,10 @@ double sb_wedge_end(double reach);
 //
 // flux is stretch times film. End pressures are relative to the rupture pressure, so p >= 0. Where
 // p would become negative, the film cavitates with zero gradient; it re-forms where the liquid of
-// the outlet, under its pressure, fills the gap. A full film has an odd pressure, which carries no
-// load by itself. Its load is, to first order, int p' v' dx with the slope v' of the elastic
-// deflection. For equal end pressures this load is lambda^2 pi/(48 film^3), so film =
-// (lambda^2/24)^(1/3).
+// the outlet, under its pressure, fills the gap. On an undeformed contact the pressure of a full
+// film is odd in x and carries no load. The deflection that it causes makes it carry, to first
+// order, int p' v' dx with the slope v' of the elastic deflection. For equal end pressures it
+// carries lambda^2 pi/(48 film^3), so film = (lambda^2/24)^(1/3).
 typedef struct {
   double lambda;  // 3 pi^2 U/(4 W^2) of scale.h
   double inlet;   // pressure at x = -infinity

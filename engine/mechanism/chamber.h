@@ -119,5 +119,6 @@ double sb_chamber_filling(double volume, double area, double drop, double densit
 // constant pressure difference `drop` [Pa]. First the liquid flows out as through an orifice in
 // V/(CdA sqrt(2 dp/rho)). Then the vapour flows out, choked and isothermal: rho decays as exp(-0.63
 // CdA sqrt(p/rho_v) t/V). 0.63 = sqrt(g) (2/(g + 1))^((g + 1)/(2(g - 1))) at g = 1.1. Not modelled:
-// boiling in the orifice (Fauske 1985), cooling.
+// boiling in the orifice (Fauske 1985), cooling. If `area` or `drop` is not positive nothing flows
+// out; of a fluid with vapour 0 only `gas` remains after the liquid.
 double sb_chamber_remaining(const SbDoseSupply *supply, double area, double drop, double time);

@@ -74,8 +74,9 @@ typedef struct {
   // Temperature.
   bool entropic;        // modulus proportional to T; modulus_slope is ignored
   double modulus_slope; // beta, dE/dT divided by E at T_0 [1/K]; 0: constant
-  // Range of temperatures in which beta was measured [K]; used outside it (and outside T_0), the
-  // warning "modulus-extrapolated" is given if beta is not 0.
+  // Range of temperatures in which beta was measured, widened to T_0 if it does not contain it [K].
+  // At a temperature of use outside of it there is the warning "modulus-extrapolated", unless beta
+  // is 0.
   double slope_from, slope_to;
   double glass_temperature; // T_g [K], below T_0; 0: no glass transition
   double thermal_expansion; // alpha, linear [1/K]
@@ -137,8 +138,8 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
 double sb_rubber_uptake(double fourier);
 
 // Returns the modulus at the temperature of use `temperature` [K] divided by that at T_0, for a
-// rubber with `modulus` [Pa] at T_0. Storage is not considered. Not defined below the glass
-// temperature.
+// rubber with `modulus` [Pa] at T_0. Storage is not considered. `temperature` must not be
+// below the glass temperature.
 double sb_rubber_stiffening(const SbRubber *rubber, double modulus, double temperature);
 
 // Returns the set of the Prony elements alone, as a fraction of the strain: constant strain for the

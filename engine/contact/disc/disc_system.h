@@ -30,7 +30,7 @@ typedef struct {
   bool radial;        // contact forces are radial; else vertical
   double half_space;  // g/(2 R), g the distance of the flats
   double pressure;    // p C of the fluid on the left, >= 0; > 0: the disc is at the groove wall
-  double hydrostatic; // inward radial displacement divided by R by a pressure on both sides
+  double hydrostatic; // inward radial displacement that a pressure on both sides causes [R]
   // Quadrature with n points; weights of the logarithm and of the kink, [n][n] by rows.
   size_t n;
   double tau[SB_DISC_POINTS_MAX]; // points in [-1, 1], decreasing
@@ -49,14 +49,15 @@ typedef struct {
 void sb_disc_system_points(SbDiscSystem *system, size_t n);
 
 // Solves the system for given sines of the edges; the parameters are those of an SbSystem (root.h),
-// `system` is an SbDiscSystem. Without pressure edges[1] has the right edge, and the left edge
-// mirrors it. With pressure edges[3] has the right edge, the left edge, and the edge of the wall's
-// contact (> 0). residual[i] is F at edge i divided by the mean of |F|: 0 for a smooth edge.
-// Returns false if the matrix is singular, an edge is outside (-1, 1), or the contacts overlap.
+// `system` is an SbDiscSystem. Without pressure there is one edge: edges[0] is the right one, and
+// the left one mirrors it. With pressure there are three: the right edge, the left edge, and the
+// edge of the wall's contact (> 0). residual[i] is F at edge i divided by the mean of |F|: 0 for a
+// smooth edge. Returns false if the matrix is singular, an edge is outside (-1, 1), or the contacts
+// overlap.
 SB_CHECKED bool sb_disc_system_solve(double *residual, const double *edges, void *system);
 
-// Direction of a pressure on an arc: normal to it; horizontal, per length of arc; horizontal, per
-// vertical projection.
+// Direction of a pressure on an arc, always towards the inside: normal to the arc; horizontal,
+// towards the vertical axis, per length of arc; the same per vertical projection of the arc.
 typedef enum { SB_DISC_NORMAL, SB_DISC_HORIZONTAL, SB_DISC_HEIGHT } SbDiscAction;
 
 // Returns the displacement (C = R = 1) at `to` in the direction m due to unit pressure on the arc

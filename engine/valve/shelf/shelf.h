@@ -103,10 +103,10 @@ const char *sb_shelf_lacks_plastic(const SbModel *model);
 double sb_shelf_diffusivity(const SbModel *model);
 
 // Integrates the flows over the history of shelf.time, and sets point[], points, loss, moisture,
-// mass_left and doses_left of *out. No other field is read or changed; the caller sets these from
-// SbShelfRest and SbShelfRates if needed. `seal` is sb_shelf_seal(model), and `now` the result of
-// sb_shelf_rest() for the model, with now->touches true. A flow that sb_shelf_rates() does not
-// compute makes its sums NaN. `cancel` and `data` as for sb_shelf_rest(). SB_ERROR_RANGE,
+// mass_left and doses_left of *out. No other field is read or changed; the caller sets the
+// others from SbShelfRest and SbShelfRates if needed. `seal` is sb_shelf_seal(model), and `now` the
+// result of sb_shelf_rest() for the model, with now->touches true. A flow that sb_shelf_rates()
+// does not compute makes its sums NaN. `cancel` and `data` as for sb_shelf_rest(). SB_ERROR_RANGE,
 // SB_ERROR_INPUT: the model is not defined at a temperature of the history; other errors of
 // sb_shelf_rest(). *out is unchanged after an error.
 SbStatus sb_shelf_history(SbShelf *out, const SbModel *model, int seal, const SbShelfRest *now,
