@@ -26,8 +26,8 @@ enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into m
 
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
 
-static const char *const encodings[SB_TEXT_TABLE_ENCODING_COUNT] = {"", "utf-8", "latin-1",
-                                                                    "utf-16le", "utf-16be"};
+static const char *const encodings[SB_TEXT_TABLE_ENCODING_COUNT] = {
+    "", "utf-8", "latin-1", "utf-16le", "utf-16be", "shift-jis"};
 
 const char *sb_text_table_encoding_name(SbTextTableEncoding encoding) {
   return (unsigned)encoding < SB_TEXT_TABLE_ENCODING_COUNT ? encodings[encoding] : "";
@@ -36,6 +36,22 @@ const char *sb_text_table_encoding_name(SbTextTableEncoding encoding) {
 // ---- Bytes ----
 
 enum { ENCODING_BYTES = 1 << 16 };
+
+// Whether text that is not UTF-8 is Shift-JIS rather than Windows-1252: pairs of bytes only, of
+// which some begin as kana and common characters do, where Windows-1252 has rare signs.
+static bool is_shift_jis(const guint8 *bytes, size_t length) {
+  size_t japanese = 0;
+  for (size_t i = 0; i < length; i++) {
+    const guint8 c = bytes[i], next = i + 1 < length ? bytes[i + 1] : 0x40;
+    const bool pair = (c >= 0x81 && c <= 0x9f) || (c >= 0xe0 && c <= 0xfc);
+    if (pair && (next < 0x40 || next == 0x7f || next > 0xfc)) {
+      return false;
+    }
+    japanese += pair && c <= 0x9f;
+    i += pair;
+  }
+  return japanese >= 2;
+}
 
 // From the first `looked` of `length` bytes.
 static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
@@ -55,12 +71,20 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
   const char *bad = NULL;
   const bool good = g_utf8_validate((const char *)bytes, (gssize)looked, &bad) ||
                     (looked < length && (const char *)bytes + looked - bad < 4);
-  return good ? SB_TEXT_TABLE_UTF8 : SB_TEXT_TABLE_LATIN1;
+  return good                          ? SB_TEXT_TABLE_UTF8
+         : is_shift_jis(bytes, looked) ? SB_TEXT_TABLE_SHIFT_JIS
+                                       : SB_TEXT_TABLE_LATIN1;
 }
 
 char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding encoding) {
-  if (encoding != SB_TEXT_TABLE_LATIN1) {
+  if (encoding != SB_TEXT_TABLE_LATIN1 && encoding != SB_TEXT_TABLE_SHIFT_JIS) {
     return sb_printable(text, length);
+  }
+  g_autofree char *known =
+      g_convert(text, (gssize)length, "UTF-8",
+                encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252" : "CP932", NULL, NULL, NULL);
+  if (known != NULL) {
+    return sb_printable(known, strlen(known));
   }
   g_autoptr(GString) out = g_string_sized_new(length);
   for (size_t i = 0; i < length; i++) {
@@ -112,33 +136,29 @@ static Sample take_sample(const SbTextTable *table) {
 // How well a dialect fits: rows of the same number of cells and the same kinds in their columns.
 typedef struct {
   SbTextTableDialect dialect;
-  size_t cells, rows;
-  guint64 numeric, clocks; // of the columns of most rows, a bit each
-  unsigned saw;
+  SbTextTableShape shape; // of most rows
   double score;
 } Fit;
 
-typedef struct {
-  size_t cells, rows;
-  guint64 numeric, clocks;
-  unsigned saw;
-} Shape;
-
-static Shape shape_of(const GString *line, const SbTextTableDialect *dialect) {
-  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-  Shape shape = {.rows = 1};
-  if (line->len == 0 || line->str[0] == '#') {
-    return shape;
-  }
-  shape.cells = sb_text_table_split(cell, line->str, line->len, dialect->separator);
-  for (size_t i = 0; i < shape.cells; i++) {
+SbTextTableShape sb_text_table_shape(const char *line, size_t length,
+                                     const SbTextTableDialect *dialect) {
+  SbTextTableCell cell;
+  SbTextTableShape shape = {0};
+  const char *at = length > 0 && memchr("#%!", *line, 3) == NULL ? line : NULL;
+  for (size_t i = 0; (dialect->matrix || i < SB_TEXT_TABLE_COLUMNS_MAX) &&
+                     sb_text_table_cell(&cell, &at, line + length, dialect->separator);
+       i++) {
+    const guint64 bit = G_GUINT64_CONSTANT(1) << MIN(i, SB_TEXT_TABLE_COLUMNS_MAX - 1);
     double value;
     SbTextTableClock clock;
-    if (sb_text_table_number(&value, &cell[i], dialect, &shape.saw)) {
-      shape.numeric |= G_GUINT64_CONSTANT(1) << i;
-    } else if (sb_text_table_clock(&clock, &cell[i])) {
-      shape.clocks |= G_GUINT64_CONSTANT(1) << i;
+    if (sb_text_table_number(&value, &cell, dialect, &shape.saw)) {
+      shape.numeric |= bit;
+    } else if (!dialect->matrix && sb_text_table_clock(&clock, &cell)) {
+      shape.clocks |= bit;
+    } else if (cell.length > 0) {
+      shape.texts |= bit;
     }
+    shape.cells = cell.length > 0 ? i + 1 : shape.cells;
   }
   return shape;
 }
@@ -151,43 +171,62 @@ static int count_bits(guint64 bits) {
   return count;
 }
 
-static bool same_shape(const Shape *a, const Shape *b) {
-  return a->cells == b->cells && a->numeric == b->numeric && a->clocks == b->clocks;
+// Whether two lines are rows of one table: numbers, times and texts are in the same columns. A cell
+// may be empty; in a matrix, a row may have another length.
+static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
+                       const SbTextTableDialect *dialect) {
+  if (dialect->matrix) {
+    return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0;
+  }
+  return a->cells == b->cells && (a->texts & (b->numeric | b->clocks)) == 0 &&
+         (b->texts & (a->numeric | a->clocks)) == 0 && (a->numeric & b->clocks) == 0 &&
+         (b->numeric & a->clocks) == 0;
+}
+
+static bool is_row(const SbTextTableShape *shape, const SbTextTableDialect *dialect) {
+  return dialect->matrix ? shape->cells > 0 && shape->texts == 0
+                         : count_bits(shape->numeric | shape->clocks) >= 2;
+}
+
+static SbTextTableShape shape_of(const GString *line, const SbTextTableDialect *dialect) {
+  return sb_text_table_shape(line->str, line->len, dialect);
 }
 
 static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) {
   enum { SHAPES = 32 };
-  Shape seen[SHAPES];
-  size_t count = 0;
+  SbTextTableShape seen[SHAPES];
+  size_t count = 0, rows[SHAPES] = {0};
   for (guint i = 0; i < sample->line->len; i++) {
-    const Shape shape = shape_of(sample->line->pdata[i], dialect);
+    const SbTextTableShape shape = shape_of(sample->line->pdata[i], dialect);
     size_t at = 0;
-    while (at < count && !same_shape(&seen[at], &shape)) {
+    while (at < count && !same_shape(&seen[at], &shape, dialect)) {
       at++;
     }
-    if (count_bits(shape.numeric | shape.clocks) < 2 || at == SHAPES) {
+    if (!is_row(&shape, dialect) || at == SHAPES) {
       continue;
     }
     if (at == count) {
       seen[count++] = shape;
-    } else {
-      seen[at].rows++;
-      seen[at].saw |= shape.saw;
     }
+    seen[at].cells = MAX(seen[at].cells, shape.cells);
+    seen[at].numeric |= shape.numeric;
+    seen[at].clocks |= shape.clocks;
+    seen[at].texts |= shape.texts;
+    seen[at].saw |= shape.saw;
+    rows[at]++;
   }
   Fit fit = {.dialect = *dialect};
   for (size_t i = 0; i < count; i++) {
-    const double share =
-        (double)count_bits(seen[i].numeric | seen[i].clocks) / (double)seen[i].cells;
-    const double score = (double)seen[i].rows * share * share;
-    if (seen[i].rows >= 2 && score > fit.score) {
-      fit = (Fit){*dialect,       seen[i].cells, seen[i].rows, seen[i].numeric,
-                  seen[i].clocks, seen[i].saw,   score};
+    const double columns = (double)MIN(seen[i].cells, SB_TEXT_TABLE_COLUMNS_MAX);
+    const double share = (double)count_bits(seen[i].numeric | seen[i].clocks) / columns;
+    const double score = (double)rows[i] * share * share;
+    if (rows[i] >= (dialect->matrix ? 1 : 2) && score > fit.score) {
+      fit = (Fit){*dialect, seen[i], score};
     }
   }
   // Who sets marks between thousands mostly sets them everywhere.
   const unsigned both = SB_TEXT_TABLE_SAW_GROUPS | SB_TEXT_TABLE_SAW_LONG;
-  if ((fit.saw & both) == both) {
+  if ((fit.shape.saw & both) == both || (fit.shape.saw & SB_TEXT_TABLE_SAW_BLANK) != 0) {
     fit.score *= 0.5;
   }
   return fit;
@@ -210,6 +249,34 @@ static char *find_two_ways(const Sample *sample, const Fit *one, const Fit *two)
   return NULL;
 }
 
+// Refuses a file that two dialects read equally well with other values.
+static bool refuse_two_ways(const SbTextTable *table, const Sample *sample, const Fit *best,
+                            const Fit *rival, GPtrArray *issues) {
+  if (best->shape.cells != rival->shape.cells) {
+    sb_issues_add(issues, table->shown, 0, "separator", NULL,
+                  "is ambiguous: %zu columns with decimal commas or %zu columns separated by "
+                  "commas: write decimal points, or separate by semicolons",
+                  MIN(best->shape.cells, rival->shape.cells),
+                  MAX(best->shape.cells, rival->shape.cells));
+    return true;
+  }
+  g_autofree char *cell = ((best->shape.saw | rival->shape.saw) & SB_TEXT_TABLE_SAW_GROUPS) != 0
+                              ? find_two_ways(sample, best, rival)
+                              : NULL;
+  if (cell == NULL) {
+    return false;
+  }
+  const SbTextTableCell text = {cell, strlen(cell)};
+  double value[2] = {0};
+  (void)sb_text_table_number(&value[0], &text, &best->dialect, NULL);
+  (void)sb_text_table_number(&value[1], &text, &rival->dialect, NULL);
+  sb_issues_add(issues, table->shown, 0, "decimal", "point, comma",
+                "is ambiguous: \"%s\" is %g with a decimal %s, %g with a decimal %s", cell,
+                value[0], best->dialect.decimal == '.' ? "point" : "comma", value[1],
+                rival->dialect.decimal == '.' ? "point" : "comma");
+  return true;
+}
+
 // The best fit of all that are wished for; false with an issue.
 static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *sample,
                          const SbTextTableDialect *wish, GPtrArray *issues) {
@@ -222,196 +289,117 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
   Fit rival = {0};
   for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
     for (size_t m = 0; m < G_N_ELEMENTS(marks); m++) {
-      const char other = marks[1 - m];
+      // In quotes, the separator can be a mark between thousands. Instruments write none.
       const SbTextTableDialect dialect = {.encoding = table->dialect.encoding,
                                           .separator = separators[s],
                                           .decimal = marks[m],
-                                          .thousands = other != separators[s] ? other : '\0'};
+                                          .thousands = wish->matrix ? '\0' : marks[1 - m],
+                                          .matrix = wish->matrix};
       if ((wish->separator != '\0' && wish->separator != separators[s]) ||
           (wish->decimal != '\0' && wish->decimal != marks[m]) ||
           (separators[s] == marks[m] && !quoted)) {
         continue;
       }
       const Fit fit = try_dialect(sample, &dialect);
+      const bool commas = wish->matrix && best->dialect.decimal == ',' && separators[s] == ',';
       if (fit.score > best->score) {
         rival = (Fit){0};
         *best = fit;
       } else if (fit.score == best->score && fit.score > 0 &&
-                 fit.dialect.separator == best->dialect.separator) {
+                 (fit.dialect.separator == best->dialect.separator || commas)) {
         rival = fit;
       }
     }
   }
   if (best->score == 0) {
     sb_issues_add(
-        issues, table->shown, 0, NULL, NULL,
-        "has no rows of two numbers or more, separated by tab, semicolon, comma or blank");
+        issues, table->shown, 0, NULL, NULL, "%s",
+        wish->matrix
+            ? "contains no numbers"
+            : "has no rows of two numbers or more, separated by tab, semicolon, comma or blank");
     return false;
   }
-  g_autofree char *cell =
-      rival.score > 0 && ((best->saw | rival.saw) & SB_TEXT_TABLE_SAW_GROUPS) != 0
-          ? find_two_ways(sample, best, &rival)
-          : NULL;
-  if (cell != NULL) {
-    const SbTextTableCell text = {cell, strlen(cell)};
-    double value[2] = {0};
-    (void)sb_text_table_number(&value[0], &text, &best->dialect, NULL);
-    (void)sb_text_table_number(&value[1], &text, &rival.dialect, NULL);
-    sb_issues_add(issues, table->shown, 0, "decimal", "point, comma",
-                  "is ambiguous: \"%s\" is %g with a decimal %s, %g with a decimal %s", cell,
-                  value[0], best->dialect.decimal == '.' ? "point" : "comma", value[1],
-                  rival.dialect.decimal == '.' ? "point" : "comma");
-    return false;
-  }
-  return true;
+  return rival.score == 0 || !refuse_two_ways(table, sample, best, &rival, issues);
 }
 
-// ---- Header ----
+// ---- Blocks ----
 
-static bool is_unit(const char *text) {
-  static const char *const units[] = {
-      "s",    "sec",    "ms",  "min", "h",  "m",  "cm", "mm", "µm",  "um",  "nm",  "in",
-      "inch", "mil",    "ft",  "N",   "kN", "mN", "cN", "gf", "kgf", "kp",  "lbf", "ozf",
-      "g",    "kg",     "V",   "mV",  "%",  "°C", "K",  "Pa", "kPa", "MPa", "bar", "psi",
-      "mm/s", "mm/min", "m/s", "Nm",  "J",  "-",  "1",  "Hz", "µs",  NULL};
-  return g_strv_contains(units, text);
-}
-
-// The two letters that look like a µ are one.
-static char *unit_text(const char *text, size_t length) {
-  g_autofree char *one = g_strndup(text, length);
-  g_auto(GStrv) parts = g_strsplit(g_strstrip(one), "\xce\xbc", -1);
-  return g_strjoinv("\xc2\xb5", parts);
-}
-
-// "Force [N]", "Kraft / N", "load_N" -> name and unit. Both owned by the caller.
-static void split_name(char **name, char **unit, const char *text) {
-  const size_t length = strlen(text);
-  const char last = length > 0 ? text[length - 1] : '\0';
-  const char *open = last == ']' ? strrchr(text, '[') : last == ')' ? strrchr(text, '(') : NULL;
-  const char *end = NULL, *start = NULL;
-  if (open != NULL) {
-    end = open;
-    start = open + 1;
-    *unit = unit_text(start, length - 1 - (size_t)(start - text));
-  } else {
-    static const char *const links[] = {" in ", "/", "_", ",", " "};
-    *unit = NULL;
-    for (size_t i = 0; i < G_N_ELEMENTS(links) && *unit == NULL; i++) {
-      const char *link = g_strrstr(text, links[i]);
-      start = link != NULL ? link + strlen(links[i]) : NULL;
-      g_autofree char *tail = link != NULL ? unit_text(start, strlen(start)) : NULL;
-      if (link != NULL && link > text && is_unit(tail)) {
-        end = link;
-        *unit = g_steal_pointer(&tail);
-      }
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const char *line, size_t length,
+                              const SbTextTableDialect *dialect, const SbTextTableShape *shape) {
+  enum { NAMES_BYTES = 4096 };
+  if (!row) {
+    const SbTextTableShape here = sb_text_table_shape(line, length, dialect);
+    const int least = dialect->matrix ? 1 : MAX(2, count_bits(shape->numeric | shape->clocks) - 1);
+    const bool numbers = !dialect->matrix && (here.numeric | here.clocks) != 0;
+    const bool names = !numbers && count_bits(here.texts) >= least && !block->after_row;
+    if (names && !block->after_names) {
+      g_free(block->names);
+      block->names = g_strndup(line, MIN(length, NAMES_BYTES));
     }
+    block->after_names = names;
   }
-  *name = g_strndup(text, end != NULL ? (size_t)(end - text) : length);
-  g_strstrip(*name);
-  if (*unit == NULL) {
-    *unit = g_strdup("");
-  }
+  block->after_row = row;
 }
 
-// A header line's cells as texts, NULL-terminated; with blanks as separators a unit goes to the
-// name before it.
-static char **header_cells(const GString *line, const SbTextTableDialect *dialect) {
-  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-  const bool comment = line->len > 0 && line->str[0] == '#';
-  const size_t cells =
-      sb_text_table_split(cell, line->str + comment, line->len - comment, dialect->separator);
-  GPtrArray *out = g_ptr_array_new();
-  for (size_t i = 0; i < cells; i++) {
-    char *text = sb_text_table_utf8(cell[i].text, cell[i].length, dialect->encoding);
-    if (dialect->separator == ' ' && out->len > 0 && *text != '\0' && strchr("[(", *text) != NULL) {
-      char *before = out->pdata[out->len - 1];
-      out->pdata[out->len - 1] = g_strconcat(before, " ", text, NULL);
-      g_free(before);
-      g_free(text);
-    } else {
-      g_ptr_array_add(out, text);
-    }
-  }
-  g_ptr_array_add(out, NULL);
-  return (char **)g_ptr_array_free(out, FALSE);
-}
-
-static bool are_units(char **cells) {
-  bool any = false;
-  for (char **cell = cells; *cell != NULL; cell++) {
-    const size_t length = strlen(*cell);
-    const bool bracketed = length >= 2 && ((**cell == '[' && (*cell)[length - 1] == ']') ||
-                                           (**cell == '(' && (*cell)[length - 1] == ')'));
-    g_autofree char *plain = unit_text(*cell, length);
-    if (length > 0 && !bracketed && !is_unit(plain)) {
-      return false;
-    }
-    any |= length > 0;
-  }
-  return any;
-}
-
-static void set_unit(SbTextTableColumn *column, const char *text) {
-  const size_t length = strlen(text);
-  const bool bracketed = length >= 2 && strchr("[(", *text) != NULL;
-  g_free(column->unit);
-  column->unit = bracketed ? unit_text(text + 1, length - 2) : unit_text(text, length);
-}
-
-// Names and units from the last header lines that have as many cells as the rows.
-static void read_header(SbTextTable *table, const Sample *sample) {
-  bool named = false, united = false;
-  for (size_t i = table->header_lines, back = 0; i-- > 0 && back < 4 && !named; back++) {
+// Finds the line where the longest block of rows begins, and the names above the block.
+static void find_block(SbTextTable *table, const Sample *sample) {
+  enum { BLOCKS = 64 };
+  struct {
+    char *names;
+    size_t first, rows;
+  } seen[BLOCKS];
+  size_t count = 0, most = 0;
+  SbTextTableBlock block = {0};
+  table->header_lines = sample->head;
+  for (size_t i = 0; i < sample->head; i++) {
     const GString *line = sample->line->pdata[i];
-    g_auto(GStrv) cells = header_cells(line, &table->dialect);
-    const size_t count = g_strv_length(cells);
-    if (line->len == 0) {
+    const SbTextTableShape shape = shape_of(line, &table->dialect);
+    const bool row =
+        is_row(&shape, &table->dialect) && same_shape(&shape, &table->shape, &table->dialect);
+    sb_text_table_block_next(&block, row, line->str, line->len, &table->dialect, &table->shape);
+    size_t at = 0;
+    while (row && at < count && g_strcmp0(seen[at].names, block.names) != 0) {
+      at++;
+    }
+    if (!row || at == BLOCKS) {
       continue;
     }
-    if (count != table->columns || count < 2) {
-      break;
+    if (at == count) {
+      seen[count].names = g_strdup(block.names);
+      seen[count].rows = 0;
+      seen[count++].first = i;
     }
-    const bool units = !united && are_units(cells);
-    for (size_t k = 0; k < count; k++) {
-      SbTextTableColumn *column = &table->column[k];
-      if (units) {
-        set_unit(column, cells[k]);
-        continue;
-      }
-      char *name, *unit;
-      split_name(&name, &unit, cells[k]);
-      g_free(column->name);
-      column->name = name;
-      if (*column->unit == '\0') {
-        g_free(column->unit);
-        column->unit = unit;
-      } else {
-        g_free(unit);
-      }
-    }
-    united |= units;
-    named = !units;
+    most = ++seen[at].rows > seen[most].rows ? at : most;
   }
+  for (size_t at = 0; at < count; at++) {
+    if (at == most) {
+      table->header_lines = seen[at].first;
+      table->names = seen[at].names;
+    } else {
+      g_free(seen[at].names);
+    }
+  }
+  g_free(block.names);
 }
 
 // Half as many names as cells, and no point anywhere: the comma may be both.
 static bool refuse_double_comma(const SbTextTable *table, const Sample *sample, const Fit *fit,
                                 const SbTextTableDialect *wish, GPtrArray *issues) {
-  if (fit->dialect.separator != ',' || (fit->saw & SB_TEXT_TABLE_SAW_DECIMAL) != 0 ||
-      table->header_lines == 0 || wish->separator != '\0') {
+  if (fit->dialect.separator != ',' || (fit->shape.saw & SB_TEXT_TABLE_SAW_DECIMAL) != 0 ||
+      table->header_lines == 0 || wish->separator != '\0' || wish->matrix) {
     return false;
   }
-  g_auto(GStrv) cells = header_cells(sample->line->pdata[table->header_lines - 1], &table->dialect);
+  g_auto(GStrv) cells =
+      sb_text_table_header_cells(table, sample->line->pdata[table->header_lines - 1]);
   const size_t names = g_strv_length(cells);
-  if (names < 2 || fit->cells != 2 * names) {
+  if (names < 2 || fit->shape.cells != 2 * names) {
     return false;
   }
   sb_issues_add(
       issues, table->shown, (int)table->header_lines + 1, "separator", NULL,
       "is ambiguous: %zu cells a row separated by commas, or %zu numbers with "
       "decimal commas under the %zu names of the header: export it with another separator",
-      fit->cells, names, names);
+      fit->shape.cells, names, names);
   return true;
 }
 
@@ -442,28 +430,22 @@ static bool recognise(SbTextTable *table, const SbTextTableDialect *wish, GPtrAr
   bool good = find_dialect(&fit, table, &sample, wish, issues);
   if (good) {
     table->dialect = fit.dialect;
-    table->columns = fit.cells;
-    for (size_t i = 0; i < fit.cells; i++) {
+    table->shape = fit.shape;
+    table->columns = MIN(fit.shape.cells, SB_TEXT_TABLE_COLUMNS_MAX);
+    for (size_t i = 0; i < table->columns; i++) {
       table->column[i] = (SbTextTableColumn){.name = g_strdup(""),
                                              .unit = g_strdup(""),
-                                             .numeric = (fit.numeric >> i & 1) != 0,
-                                             .clock = (fit.clocks >> i & 1) != 0};
+                                             .numeric = (fit.shape.numeric >> i & 1) != 0,
+                                             .clock = (fit.shape.clocks >> i & 1) != 0};
     }
-    const Shape row = {.cells = fit.cells, .numeric = fit.numeric, .clocks = fit.clocks};
-    for (size_t i = 0; i < sample.head; i++) {
-      const Shape shape = shape_of(sample.line->pdata[i], &table->dialect);
-      if (same_shape(&shape, &row)) {
-        break;
-      }
-      table->header_lines++;
-    }
+    find_block(table, &sample);
     if (refuse_double_comma(table, &sample, &fit, wish, issues)) {
       good = false;
     } else {
-      read_header(table, &sample);
+      sb_text_table_take_header(table, (GString *const *)sample.line->pdata, table->header_lines);
       // Marks between thousands are taken where a decimal mark tells them apart.
-      const bool grouped = (fit.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
-      if (!grouped && fit.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
+      const bool grouped = (fit.shape.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
+      if (!grouped && fit.shape.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
         table->dialect.thousands = '\0';
       }
     }
@@ -476,10 +458,7 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
                                  const char *name, GPtrArray *issues) {
   g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
   table->shown = g_strdup(name);
-  table->bytes = (SbTextTableBytes){-1, g_malloc0(length + 1), length}; // never NULL
-  if (length > 0) {
-    memcpy(table->bytes.bytes, bytes, length);
-  }
+  table->bytes = (SbTextTableBytes){-1, length > 0 ? bytes : (const guint8 *)"", length};
   return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
 }
 
@@ -495,7 +474,12 @@ SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish
     size_t length = 0;
     g_autofree char *text =
         sb_reader_load_stream(&length, table->bytes.file, path, PIPE_BYTES, issues);
-    return text != NULL ? sb_text_table_parse(text, length, wish, path, issues) : NULL;
+    SbTextTable *piped =
+        text != NULL ? sb_text_table_parse(text, length, wish, path, issues) : NULL;
+    if (piped != NULL) {
+      piped->owned = g_steal_pointer(&text);
+    }
+    return piped;
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is not a regular file");
   } else if (info.st_size == 0) {
@@ -515,7 +499,9 @@ void sb_text_table_free(SbTextTable *table) {
   if (table->bytes.file >= 0) {
     close(table->bytes.file);
   }
-  g_free(table->bytes.bytes);
+  g_free(table->owned);
+  g_free(table->names);
+  g_strfreev(table->header);
   for (size_t i = 0; i < table->columns; i++) {
     g_free(table->column[i].name);
     g_free(table->column[i].unit);
@@ -540,6 +526,10 @@ size_t sb_text_table_header_lines(const SbTextTable *table) {
   return table->header_lines;
 }
 
+char *const *sb_text_table_header(const SbTextTable *table) {
+  return table->header;
+}
+
 void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, const char *unit) {
   SbTextTableColumn *column = &table->column[index];
   if (name != NULL) {
@@ -548,6 +538,7 @@ void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, co
   }
   if (unit != NULL) {
     g_free(column->unit);
-    column->unit = unit_text(unit, strlen(unit));
+    const char *known = sb_text_table_unit(unit);
+    column->unit = g_strdup(known != NULL ? known : unit);
   }
 }

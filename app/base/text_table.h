@@ -1,12 +1,17 @@
-// Tables of numbers in text files, as test machines and loggers export them. Separator, decimal
-// mark, encoding, first row, names and units of the columns are recognised from the file; the
-// caller can specify them instead.
+// Tables of numbers in text files, as test machines, loggers and instruments export them.
+// Separator, decimal mark, encoding, first row, names and units of the columns are recognised from
+// the file; the caller can specify them instead.
 //
 // Cells are separated by tab, semicolon, comma or blanks, and may be in double quotes. Numbers
-// have a decimal point or comma, may have the other one (or an apostrophe) between thousands, and
-// are rounded once: the same digits give the same double in every dialect. A time can be a time of
-// day, 10:15:00.25, with or without a date. Lines that begin with # are comments, anything else
-// before the first row is a header; its last lines with as many cells as the rows give names and
+// have a decimal point or comma, may have the other one (or an apostrophe or blank) between
+// thousands, may have a typographic minus, and are rounded once: the same digits give the same
+// double in every dialect. A time can be a time of day, 10:15:00.25, with or without a date. Lines
+// that begin with #, % or ! are comments.
+//
+// The table is the longest block of rows with the same cells. A line of names above rows begins a
+// block, except directly after a row; blocks under the same line are one. Other rows, such as those
+// of a results table, are not read. The lines above the table are its header: its last ones give
+// names and units. A unit is in brackets, follows "in", "/", "_" or a blank, or is in a line of
 // units.
 //
 // An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
@@ -26,10 +31,11 @@ typedef enum {
   SB_TEXT_TABLE_LATIN1, // also Windows-1252, for letters and µ
   SB_TEXT_TABLE_UTF16LE,
   SB_TEXT_TABLE_UTF16BE,
+  SB_TEXT_TABLE_SHIFT_JIS,
   SB_TEXT_TABLE_ENCODING_COUNT
 } SbTextTableEncoding;
 
-// Returns "utf-8", "latin-1", "utf-16le" or "utf-16be". Static.
+// Returns "utf-8", "latin-1", "utf-16le", "utf-16be" or "shift-jis". Static.
 const char *sb_text_table_encoding_name(SbTextTableEncoding encoding);
 
 // Format of a table.
@@ -37,7 +43,8 @@ typedef struct {
   SbTextTableEncoding encoding;
   char separator; // '\t', ';', ',', or ' ' for blanks; 0: to be recognised
   char decimal;   // '.' or ','; 0: to be recognised
-  char thousands; // only recognised: '.', ',', '\''; 0: none
+  char thousands; // only recognised: '.' or ','; 0: neither
+  bool matrix;    // all cells are numbers or void (NaN); then one column is enough
 } SbTextTableDialect;
 
 // Largest number of columns.
@@ -46,7 +53,7 @@ enum { SB_TEXT_TABLE_COLUMNS_MAX = 64 };
 // A column.
 typedef struct {
   char *name;   // without its unit; empty: none
-  char *unit;   // as the file has it; empty: none
+  char *unit;   // its usual spelling where the file's is known, else the file's; empty: none
   bool numeric; // its cells are numbers
   bool clock;   // its cells are times of day
 } SbTextTableColumn;
@@ -59,8 +66,8 @@ typedef struct SbTextTable SbTextTable;
 SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
                                 GPtrArray *issues);
 
-// As sb_text_table_open(), from the `length` bytes of a file, which are copied; `name` is used as
-// the path in messages.
+// As sb_text_table_open(), from the `length` bytes of a file, which are borrowed by the table;
+// `name` is used as the path in messages.
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues);
 
@@ -79,6 +86,10 @@ const SbTextTableColumn *sb_text_table_column(const SbTextTable *table, size_t i
 
 // Returns the number of lines before the first row.
 size_t sb_text_table_header_lines(const SbTextTable *table);
+
+// Returns the lines above the first row as UTF-8, without comment signs, ended by NULL. Owned by
+// the table.
+char *const *sb_text_table_header(const SbTextTable *table);
 
 // Replaces name and unit of a column (each copied; NULL: unchanged).
 void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, const char *unit);
@@ -102,6 +113,23 @@ typedef struct {
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
-// Reads a text of `length` bytes that is one number with this decimal mark and no mark between
-// thousands. Returns false, with *out not changed, if it is not.
-bool sb_text_table_number_of(double *out, const char *text, size_t length, char decimal);
+// Numbers of a matrix, row after row.
+typedef struct {
+  GArray *value;        // of double; NaN: void. Freed by g_array_unref()
+  size_t rows, columns; // lines; numbers of the first one
+  int ragged;           // number of the first line with another count of numbers; 0: none
+} SbTextTableMatrix;
+
+// Reads all numbers of a table that was opened with `matrix`, at most `most` of a line and 3 `most`
+// altogether. Returns false with one issue, *out then empty, if there are more, or if a line behind
+// the first row has a cell that is not a number.
+bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
+                               GPtrArray *issues);
+
+// Reads a text that is one number with a decimal point, or with a comma where `decimal` is one or
+// where no thousands can be meant. Returns the number of bytes that were read; 0: none.
+size_t sb_text_table_number_at(double *out, const char *text, char decimal);
+
+// Returns the usual spelling of a unit, as app/base/unit.h reads it: "Sek." is "s". NULL: not
+// known. Static.
+const char *sb_text_table_unit(const char *text);

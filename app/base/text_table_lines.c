@@ -136,7 +136,7 @@ bool sb_text_table_next(SbTextTableLines *lines, const char **text, size_t *leng
     *length = (size_t)(last - lines->at);
     lines->at = stop != NULL ? stop + 1 : lines->end;
   }
-  if (*length > 0 && (*text)[*length - 1] == '\r') {
+  while (*length > 0 && (*text)[*length - 1] == '\r') {
     --*length;
   }
   return lines->wrong == NULL;

@@ -6,8 +6,8 @@
 // The bytes of a table: in memory, or in a file that is read piece by piece. (A memory map would
 // crash if another program truncates the file.)
 typedef struct {
-  int file;      // descriptor; -1: in memory
-  guint8 *bytes; // [length] in memory; NULL: a file
+  int file;            // descriptor; -1: in memory
+  const guint8 *bytes; // [length] in memory; NULL: a file
   size_t length;
 } SbTextTableBytes;
 
@@ -50,15 +50,20 @@ typedef struct {
   size_t length;
 } SbTextTableCell;
 
+// Reads the cell that begins at *at, without blanks and quotes around it, and moves *at behind its
+// separator (NULL: behind the last cell). Returns false if no cell is left.
+bool sb_text_table_cell(SbTextTableCell *cell, const char **at, const char *end, char separator);
+
 // Splits a line into cell[SB_TEXT_TABLE_COLUMNS_MAX] and returns their number; further cells are
-// ignored. Blanks and quotes around a cell are removed.
+// ignored, as are empty ones at the end.
 size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t length, char separator);
 
 // Bits that state which marks numbers have.
 enum {
   SB_TEXT_TABLE_SAW_DECIMAL = 1,
   SB_TEXT_TABLE_SAW_GROUPS = 2, // a mark between thousands
-  SB_TEXT_TABLE_SAW_LONG = 4    // four digits or more and no mark between them
+  SB_TEXT_TABLE_SAW_LONG = 4,   // four digits or more and no mark between them
+  SB_TEXT_TABLE_SAW_BLANK = 8   // a blank between thousands
 };
 
 // Reads a cell as a number in this dialect. Returns false, with *out not changed, if it is none.
@@ -80,13 +85,45 @@ bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell);
 // number is the day and which the month.
 bool sb_text_table_days(long *days, const SbTextTableClock *clock);
 
+// Kinds of a line's cells, a bit each.
+typedef struct {
+  size_t cells; // of a matrix all; else at most SB_TEXT_TABLE_COLUMNS_MAX
+  guint64 numeric, clocks, texts;
+  unsigned saw; // marks of the numbers
+} SbTextTableShape;
+
+// Returns the kinds of a line's cells in this dialect; of a comment or an empty line all 0.
+SbTextTableShape sb_text_table_shape(const char *line, size_t length,
+                                     const SbTextTableDialect *dialect);
+
+// Where a line is among the blocks of a file.
+typedef struct {
+  char *names; // the line of names above the block; NULL: none. Owned
+  bool after_row, after_names;
+} SbTextTableBlock;
+
+// Moves to the next line: `row` states whether it is a row like those of `shape`.
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const char *line, size_t length,
+                              const SbTextTableDialect *dialect, const SbTextTableShape *shape);
+
 struct SbTextTable {
   char *shown; // the file, for messages
   SbTextTableBytes bytes;
+  char *owned; // memory of the bytes of a pipe; else NULL
   SbTextTableDialect dialect;
+  SbTextTableShape shape; // of its rows
+  char *names;            // line of names above its rows, as in the file; NULL: none
+  char **header;          // lines above the first row, ended by NULL
   size_t columns, header_lines;
   SbTextTableColumn column[SB_TEXT_TABLE_COLUMNS_MAX];
 };
+
+// Fills the table's header, and names and units of its columns, from the lines line[count] (of
+// GString) above its rows.
+void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count);
+
+// Returns the cells of a header line as UTF-8, ended by NULL.
+char **sb_text_table_header_cells(const SbTextTable *table, const GString *line);
 
 // Returns a piece of a line as printable UTF-8.
 char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding encoding);

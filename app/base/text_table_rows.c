@@ -45,7 +45,7 @@ static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
 typedef struct {
   size_t cells;
   bool any, good;    // a wanted cell has a number; all wanted cells do, or are empty
-  size_t unreadable; // wanted cells that have none
+  size_t unreadable; // wanted cells that are not empty and have none
 } Line;
 
 // Reads the requested columns of a line to row[count]. Returns a static text that states what is
@@ -84,8 +84,9 @@ static void leave_out(SbTextTableRows *out, const Line *line, const SbTextTable 
       !line->good && (memchr(text, '\0', length) != NULL ||
                       (line->cells == table->columns && line->any && line->unreadable == 1));
   out->damaged += damaged;
-  out->skipped += line->cells > 0 && !damaged;
-  if (line->cells > 0 && out->left_text == NULL) {
+  const bool left = line->cells > 0 && (damaged || !line->good); // not empty in these columns only
+  out->skipped += left && !damaged;
+  if (left && out->left_text == NULL) {
     out->left_line = lines->number;
     out->left_text = sb_text_table_utf8(text, length, table->dialect.encoding);
   }
@@ -113,16 +114,22 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableLines lines;
+  SbTextTableBlock block = {.names = g_strdup(table->names)};
   const char *text, *wrong = NULL;
   size_t length, room = 0;
   sb_text_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
   while (wrong == NULL && sb_text_table_next(&lines, &text, &length)) {
-    if ((size_t)lines.number <= table->header_lines || length == 0 || *text == '#') {
+    if ((size_t)lines.number <= table->header_lines) {
       continue;
     }
-    Line line;
-    wrong = read_line(&line, row, days, table, column, count, text, length);
-    if (!line.good || !line.any) {
+    Line line = {0};
+    if (length > 0 && memchr("#%!", *text, 3) == NULL) {
+      wrong = read_line(&line, row, days, table, column, count, text, length);
+    }
+    const bool like = line.good && line.any;
+    sb_text_table_block_next(&block, like, text, length, &table->dialect, &table->shape);
+    if (!like || (block.names != NULL && g_strcmp0(block.names, table->names) != 0)) {
+      line.good &= !like; // a row of another block
       leave_out(out, &line, table, &lines, text, length);
       continue;
     }
@@ -142,6 +149,69 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     }
     g_clear_pointer(&out->left_text, g_free);
   }
+  g_free(block.names);
   sb_text_table_lines_clear(&lines);
   return wrong == NULL;
+}
+
+// Appends the numbers of a line. Returns their number, without empty cells at the end beyond
+// `columns`; -1: a cell is not a number.
+static gssize append_cells(GArray *out, const char *text, size_t length, size_t columns,
+                           size_t most, const SbTextTableDialect *dialect) {
+  const char *at = text;
+  SbTextTableCell cell;
+  const guint begin = out->len;
+  size_t count = 0, filled = 0;
+  for (; count <= most && sb_text_table_cell(&cell, &at, text + length, dialect->separator);
+       count++) {
+    double value;
+    if (!sb_text_table_number(&value, &cell, dialect, NULL)) {
+      return -1;
+    }
+    filled = cell.length > 0 ? count + 1 : filled;
+    g_array_append_val(out, value);
+  }
+  count = filled > 0 ? MAX(filled, MIN(count, columns)) : 0;
+  g_array_set_size(out, begin + (guint)count);
+  return (gssize)count;
+}
+
+bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
+                               GPtrArray *issues) {
+  *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
+  SbTextTableLines lines;
+  const char *text;
+  size_t length;
+  bool good = true;
+  sb_text_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
+  while (good && sb_text_table_next(&lines, &text, &length)) {
+    if ((size_t)lines.number <= table->header_lines || length == 0 ||
+        memchr("#%!", *text, 3) != NULL) {
+      continue;
+    }
+    const size_t columns = out->rows > 0 ? out->columns : table->shape.cells;
+    const gssize count = append_cells(out->value, text, length, columns, most, &table->dialect);
+    if (count > 0) {
+      out->columns = out->rows == 0 ? (size_t)count : out->columns;
+      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines.number : out->ragged;
+      out->rows++;
+    }
+    good = count >= 0 && (size_t)count <= most && out->value->len <= 3 * most;
+    if (count < 0) {
+      g_autofree char *shown = sb_text_table_utf8(text, MIN(length, 40), table->dialect.encoding);
+      sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "numbers expected, not \"%s\"",
+                    shown);
+    } else if (!good) {
+      sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "has too many numbers");
+    }
+  }
+  if (good && lines.wrong != NULL) {
+    sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "%s", lines.wrong);
+    good = false;
+  }
+  sb_text_table_lines_clear(&lines);
+  if (!good) {
+    g_clear_pointer(&out->value, g_array_unref);
+  }
+  return good;
 }

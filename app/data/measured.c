@@ -13,13 +13,18 @@
 static const struct {
   const char *name, *si;
   double most;       // either way, SI
-  const char *words; // parts of a column's name in small letters; those in quotes are the whole
+  const char *words; // parts of a column's name in small letters; those in quotes are words of it
+  const char *alias; // units that mean another one in this column: "g gf" is gram-force
 } channels[SB_CHANNELS] = {
-    {"time", "s", 1e9, "time|zeit|temps|tiempo|tempo|'t'|seconds|'sec'"},
+    {"time", "s", 1e9, "time|zeit|temps|tiempo|tempo|'t'|seconds|'sec'|時間|时间", ""},
     {"displacement", "m", 0.2,
-     "displ|weg|position|extension|travel|stroke|'hub'|placement|course|crosshead|travers|"
-     "deflection|desplaz|spostamento|'s'|'x'"},
-    {"force", "N", 1e5, "force|kraft|'load'|'last'|load cell|effort|carga|fuerza|forza|'f'"},
+     "displ|'disp'|weg|position|extension|travel|stroke|'hub'|placement|course|crosshead|travers|"
+     "deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|stauchung|"
+     "verformung|変位|位移|'s'|'x'",
+     ""},
+    {"force", "N", 1e5,
+     "force|kraft|'load'|'last'|effort|'charge'|carga|carico|fuerza|forza|荷重|試験力|'f'",
+     "g gf kg kgf lb lbf oz ozf"},
 };
 
 const char *sb_channel_name(SbChannel channel) {
@@ -71,7 +76,8 @@ static bool read_wish(SbTextTableDialect *wish, const SbData *data, GPtrArray *i
     wish->decimal = at >= 0 ? ".,"[at] : '\0';
   }
   if (data->text[SB_DATA_ENCODING] != NULL) {
-    const int at = word_of(data, SB_DATA_ENCODING, "utf-8|latin-1|utf-16le|utf-16be", issues);
+    const int at =
+        word_of(data, SB_DATA_ENCODING, "utf-8|latin-1|utf-16le|utf-16be|shift-jis", issues);
     wish->encoding = (SbTextTableEncoding)(at + 1);
   }
   if (data->text[SB_DATA_SIGNAL] != NULL) {
@@ -82,24 +88,33 @@ static bool read_wish(SbTextTableDialect *wish, const SbData *data, GPtrArray *i
 
 // ---- Columns ----
 
+// Whether a column's name has one of the channel's words. A word of one letter is the whole name.
 static bool name_fits(const char *name, SbChannel channel) {
   g_auto(GStrv) words = g_strsplit(channels[channel].words, "|", -1);
   g_autofree char *folded = g_utf8_strdown(name, -1);
+  for (char *c = folded; *c != '\0'; c++) {
+    *c = (*c & 0x80) != 0 || g_ascii_isalnum(*c) ? *c : ' ';
+  }
+  g_autofree char *spaced = g_strdup_printf(" %s ", g_strstrip(folded));
   for (char **word = words; *word != NULL; word++) {
     const size_t length = strlen(*word);
     if (**word == '\'') {
-      if (strlen(folded) == length - 2 && strncmp(folded, *word + 1, length - 2) == 0) {
-        return true;
-      }
-    } else if (strstr(folded, *word) != NULL) {
+      (*word)[0] = (*word)[length - 1] = ' ';
+    }
+    if (strstr(spaced, *word) != NULL && (**word != ' ' || length != 3 || strlen(folded) == 1)) {
       return true;
     }
   }
   return false;
 }
 
-static bool unit_scale(double *scale, const char *unit, const char *si) {
-  g_autofree char *one = g_strdup_printf("1 %s", unit);
+static bool unit_scale(double *scale, const char *unit, SbChannel channel) {
+  const char *si = channels[channel].si, *meant = unit;
+  g_auto(GStrv) alias = g_strsplit(channels[channel].alias, " ", -1);
+  for (int i = 0; alias[i] != NULL; i += 2) {
+    meant = strcmp(alias[i], unit) == 0 ? alias[i + 1] : meant;
+  }
+  g_autofree char *one = g_strdup_printf("1 %s", meant);
   return *unit != '\0' && sb_quantity_parse(scale, one, si, si, NULL) && *scale > 0;
 }
 
@@ -140,36 +155,96 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
   return true;
 }
 
-// The column of a channel by its name, else by its unit where no name says more; false with an
-// issue where there are two.
-static bool find_column(SbMeasured *m, const SbTextTable *table, const SbData *data,
-                        SbChannel channel, GPtrArray *issues) {
-  for (int by_unit = 0; by_unit < 2; by_unit++) {
-    int found = -1;
+// How well a column fits a channel, best first: by its name with a unit of the kind, by its name
+// without a unit, by its name alone, by its unit where no word of its name is known.
+enum { FIT_NAME_UNIT, FIT_NAME, FIT_NAME_OTHER, FIT_UNIT, FIT_NONE };
+
+static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
+  const bool clock = column->clock && channel == SB_CHANNEL_TIME;
+  double scale;
+  const bool kind = clock || unit_scale(&scale, column->unit, channel);
+  const bool foreign = strlen(column->name) < 3 || !g_str_is_ascii(column->name);
+  bool known = false;
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    known |= name_fits(column->name, (SbChannel)c);
+  }
+  return !column->numeric && !clock          ? FIT_NONE
+         : !name_fits(column->name, channel) ? (kind && foreign && !known ? FIT_UNIT : FIT_NONE)
+         : kind                              ? FIT_NAME_UNIT
+         : *column->unit == '\0'             ? FIT_NAME
+                                             : FIT_NAME_OTHER;
+}
+
+// The columns that fit a channel best, in their order. Returns their number.
+static size_t find_columns(size_t *column, const SbTextTable *table, SbChannel channel) {
+  size_t count = 0;
+  for (int fit = FIT_NAME_UNIT; fit < FIT_NONE && count == 0; fit++) {
     for (size_t i = 0; i < sb_text_table_columns(table); i++) {
-      const SbTextTableColumn *column = sb_text_table_column(table, i);
-      double scale;
-      const bool numeric = column->numeric || (column->clock && channel == SB_CHANNEL_TIME);
-      const bool fits = by_unit == 0 ? name_fits(column->name, channel)
-                                     : *column->name == '\0' &&
-                                           unit_scale(&scale, column->unit, channels[channel].si);
-      if (!numeric || !fits) {
-        continue;
+      if (fit_of(sb_text_table_column(table, i), channel) == fit) {
+        column[count++] = i;
       }
-      if (found >= 0 && channel != SB_CHANNEL_TIME) {
-        sb_data_add_issue(data, SB_DATA_COLUMNS, NULL, issues,
-                          "column %d \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
-                          "as in columns = displacement, force, -",
-                          found + 1, sb_text_table_column(table, (size_t)found)->name, i + 1,
-                          column->name, channels[channel].name);
-        return false;
-      }
-      found = found < 0 ? (int)i : found;
     }
-    if (found >= 0) {
-      m->column[channel].index = found;
-      m->column[channel].how = SB_HOW_FOUND;
-      return true;
+  }
+  return count;
+}
+
+// Whether two names are equal but for the number of a specimen.
+static bool same_name(const char *a, const char *b) {
+  while (*a != '\0' || *b != '\0') {
+    if (*a != '\0' && !g_ascii_isalpha(*a) && (*a & 0x80) == 0) {
+      a++;
+    } else if (*b != '\0' && !g_ascii_isalpha(*b) && (*b & 0x80) == 0) {
+      b++;
+    } else if (*a++ != *b++) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// Whether columns of displacement and force are those of several specimens side by side: pairs in
+// one order with the same names.
+static bool are_specimens(const SbTextTable *table, const size_t *place, const size_t *force,
+                          size_t count) {
+  const bool first = place[0] < force[0];
+  for (size_t i = 0; i < count; i++) {
+    const size_t low = first ? place[i] : force[i], high = first ? force[i] : place[i];
+    const bool next = i == 0 || low > (first ? force[i - 1] : place[i - 1]);
+    if (low > high || !next ||
+        !same_name(sb_text_table_column(table, place[0])->name,
+                   sb_text_table_column(table, place[i])->name) ||
+        !same_name(sb_text_table_column(table, force[0])->name,
+                   sb_text_table_column(table, force[i])->name)) {
+      return false;
+    }
+  }
+  return true;
+}
+
+// The column of each channel; false with an issue where there are two that are not of specimens.
+static bool find_channels(SbMeasured *m, const SbTextTable *table, const SbData *data,
+                          GPtrArray *issues) {
+  size_t column[SB_CHANNELS][SB_TEXT_TABLE_COLUMNS_MAX], count[SB_CHANNELS];
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    count[c] = find_columns(column[c], table, (SbChannel)c);
+    m->column[c].index = count[c] > 0 ? (int)column[c][0] : -1;
+    m->column[c].how = count[c] > 0 ? SB_HOW_FOUND : SB_HOW_ASSUMED;
+  }
+  const size_t pairs = count[SB_CHANNEL_DISPLACEMENT];
+  if (pairs > 1 && pairs == count[SB_CHANNEL_FORCE] &&
+      are_specimens(table, column[SB_CHANNEL_DISPLACEMENT], column[SB_CHANNEL_FORCE], pairs)) {
+    m->specimens = pairs;
+    return true;
+  }
+  for (int c = SB_CHANNEL_DISPLACEMENT; c < SB_CHANNELS; c++) {
+    if (count[c] > 1) {
+      sb_data_add_issue(data, SB_DATA_COLUMNS, NULL, issues,
+                        "column %zu \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
+                        "as in columns = displacement, force, -",
+                        column[c][0] + 1, sb_text_table_column(table, column[c][0])->name,
+                        column[c][1] + 1, sb_text_table_column(table, column[c][1])->name,
+                        channels[c].name);
+      return false;
     }
   }
   return true;
@@ -213,10 +288,8 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   if (!take_said(m, table, data, issues)) {
     return false;
   }
-  for (int c = 0; c < SB_CHANNELS && data->text[SB_DATA_COLUMNS] == NULL; c++) {
-    if (!find_column(m, table, data, (SbChannel)c, issues)) {
-      return false;
-    }
+  if (data->text[SB_DATA_COLUMNS] == NULL && !find_channels(m, table, data, issues)) {
+    return false;
   }
   if (!settle_speed(m, table, data, speed, issues)) {
     return false;
@@ -247,7 +320,7 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
     m->column[c].clock = column->clock;
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
     scale[c] = 1;
-    if (!column->clock && !unit_scale(&scale[c], column->unit, channels[c].si)) {
+    if (!column->clock && !unit_scale(&scale[c], column->unit, (SbChannel)c)) {
       const bool none = *column->unit == '\0';
       sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
                         "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N", at + 1,
@@ -523,6 +596,11 @@ char *sb_measured_text(const SbMeasured *m) {
                              m->column[c].index + 1, m->column[c].name, m->column[c].unit,
                              hows[m->column[c].how]);
     }
+  }
+  if (m->specimens > 1) {
+    g_string_append_printf(
+        out, "%zu specimens side by side: the first is used, `columns` selects another\n",
+        m->specimens);
   }
   if (m->speed > 0) {
     g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");

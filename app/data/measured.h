@@ -6,7 +6,7 @@
 //
 //   signal = force over displacement
 //   separator = comma | semicolon | tab | blank     decimal = point | comma
-//   encoding = utf-8 | latin-1 | utf-16le | utf-16be
+//   encoding = utf-8 | latin-1 | utf-16le | utf-16be | shift-jis
 //   columns = time, displacement, -, force          in the file's order, - for others
 //   units = s, mm, -, N
 //   speed = 20 mm/min                                of the crosshead, without a displacement
@@ -76,6 +76,7 @@ typedef struct {
     bool clock; // the column has times of day
     SbHow how;  // origin of the assignment
   } column[SB_CHANNELS];
+  size_t specimens; // pairs of displacement and force side by side, the first in use; 0: only one
   // Rows, in the order of the file. Displacement and force are corrected as above.
   size_t count;         // rows in use
   size_t dropped;       // rows left out for an empty or unreadable cell

@@ -228,6 +228,94 @@ static void test_peak(void) {
   g_assert_cmpfloat_with_epsilon(without->stage[SB_STAGE_B].force, 20.25, 1e-4);
 }
 
+// Habits of exporters: other headers, units, encodings, blocks and marks, the same forces within
+// the rounding of the file. `row` gets time [s], place [mm] and force [N].
+typedef struct {
+  const char *before, *row, *after;
+  char decimal;
+  double force_scale, place_scale; // of what is written
+} Habit;
+
+static SbMeasured *read_habit(const Habit *h) {
+  GString *text = g_string_new(h->before);
+  for (int i = 0; i < ROWS; i++) {
+    char cell[3][40];
+    const double value[3] = {bench.time[i], bench.place[i] * h->place_scale,
+                             bench.force[i] * h->force_scale};
+    for (int k = 0; k < 3; k++) {
+      g_ascii_formatd(cell[k], sizeof cell[k], "%.5f", value[k]);
+      *strchr(cell[k], '.') = h->decimal;
+    }
+    g_auto(GStrv) parts = g_strsplit(h->row, "@", -1);
+    for (int k = 0; parts[k] != NULL; k++) {
+      const char *which = k > 0 ? parts[k] : NULL;
+      g_string_append(text, which != NULL ? cell[*which == 't' ? 0 : *which == 'x' ? 1 : 2] : "");
+      g_string_append(text, which != NULL ? which + 1 : parts[k]);
+    }
+  }
+  g_string_append(text, h->after);
+  SbData *data = sb_data_of_file("x.csv");
+  g_autoptr(GBytes) bytes = g_string_free_to_bytes(text);
+  SbMeasured *measured = read_bytes(bytes, data);
+  sb_data_free(data);
+  return measured;
+}
+
+static void test_habits(void) {
+  static const Habit habits[] = {
+      // Quoted decimal commas, units in a row of their own that is shorter, properties above.
+      {"Area,\"100,0\",mm^2\n\nTime,Extension,Load,Strain,Count\n(s),(mm),(N),(mm/mm)\n",
+       "\"@t\",\"@x\",\"@f\",\"0,1\",\"0,0\"\n", "", ',', 1, 1},
+      // A results block of the same shape before the data, and one behind.
+      {"Results\n\"No\",\"Maximum Load\",\"Extension\"\n,\"(N)\",\"(mm)\"\n1,\"35.1\",\"16.2\"\n\n"
+       "\"Raw Data\"\n\"Time\",\"Extension\",\"Load\"\n\"(s)\",\"(mm)\",\"(N)\"\n",
+       "\"@t\",\"@x\",\"@f\"\n", "\nResults\nNo,Peak,Mean\n1,900.0,800.0\n2,900.0,1.5\n", '.', 1,
+       1},
+      // Gram-force, inches by their sign, doubled ends of lines.
+      {"Distance (\"),Force (g),Time (s)\r\r\n", "@x,@f,@t\r\r\n", "", '.', 1 / 9.80665e-3,
+       1 / 25.4},
+      {"Displacement (\"\");Force_LBF;Time_S\n", "@x;@f;@t\n", "", '.', 1 / 4.4482216152605,
+       1 / 25.4},
+      {"Corsa in mil;Forza in kp;Tempo in s\n", "@x;@f;@t\n", "", ',', 1 / 9.80665, 1000 / 25.4},
+      {"\xc9"
+       "crasement (mm)\tEffort (N)\tTemps (s)\n",
+       "@x\t@f\t@t\n", "", ',', 1, 1},
+      // Shift-JIS.
+      {"\x95\xcf\x88\xca (mm),\x89\xd7\x8f\x64 (N),\x8e\x9e\x8a\xd4 (s)\n", "@x,@f,@t\n", "", '.',
+       1, 1},
+      // Two specimens with the same names.
+      {"Probe 1;;;Probe 2;;\nZeit;Weg;Kraft;Zeit;Weg;Kraft\ns;mm;N;s;mm;N\n", "@t;@x;@f;@t;@f;@x\n",
+       "", ',', 1, 1},
+      // A unit of another kind excludes a column.
+      {"Time (Sec),Position Millimeters,Strain position (%),Load Newtons,Load rate (N/s)\n",
+       "@t,@x,@f,@f,@t\n", "", '.', 1, 1},
+  };
+  g_autoptr(SbMeasured) first =
+      read_habit(&(Habit){"Time (s),Position (mm),Force (N)\n", "@t,@x,@f\n", "", '.', 1, 1});
+  for (size_t i = 0; i < G_N_ELEMENTS(habits); i++) {
+    g_autoptr(SbMeasured) other = read_habit(&habits[i]);
+    g_assert_cmpuint(other->count, ==, ROWS);
+    // Roundings of a row's five digits, of those of the zero and of the slope.
+    const double force = 2e-5 / habits[i].force_scale + 2e-5;
+    for (int k = 0; k < ROWS; k++) {
+      g_assert_cmpfloat_with_epsilon(other->force[k], first->force[k], force);
+      g_assert_cmpfloat_with_epsilon(other->displacement[k], first->displacement[k],
+                                     1e-3 * (4e-5 / habits[i].place_scale + 4e-5));
+    }
+  }
+  // A typographic minus, and groups of thousands by commas in quotes.
+  static const char text[] = "a,b\n\"\xe2\x88\x92"
+                             "1,729.2\",0.5\n\"12,345.0\",1\n4.7,2\n";
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbTextTable) table = sb_text_table_parse(text, strlen(text), NULL, "x", issues);
+  SbTextTableRows rows;
+  double *value;
+  g_assert_true(sb_text_table_read(&rows, &value, table, (size_t[]){0}, 1, issues));
+  g_assert_cmpuint(rows.rows, ==, 3);
+  g_assert_true(value[0] == -1729.2 && value[1] == 12345 && value[2] == 4.7);
+  g_free(value);
+}
+
 // What was found, written as keys, gives the same rows again; and a key stands against the data.
 static void test_said(void) {
   g_autoptr(GBytes) bytes = write_file(&plain);
@@ -509,6 +597,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   make_bench();
   g_test_add_func("/measured/dialects", test_dialects);
+  g_test_add_func("/measured/habits", test_habits);
   g_test_add_func("/measured/found", test_found);
   g_test_add_func("/measured/peak", test_peak);
   g_test_add_func("/measured/said", test_said);

@@ -271,6 +271,57 @@ static void test_matrix(void) {
   g_string_free(text, TRUE);
 }
 
+// Headers in other languages, with a factor of heights, with decimal commas; `--unit` replaces the
+// factor and its unit, which a note states.
+static void test_headers(void) {
+  SbHeights h = written();
+  static const char *const german =
+      "# Kanal: H\xc3\xb6he\n# Breite: 10,0 \xc2\xb5m\n# H\xc3\xb6he: 34 \xc2\xb5m\n"
+      "# Einheit der Werte: nm\n";
+  static const char *const french =
+      "# Canal : Hauteur\n# Largeur : 10,0 \xc2\xb5m\n# Hauteur : 34 \xc2\xb5m\n"
+      "# Unit\xc3\xa9 des valeurs : nm\n";
+  static const char *const factor = "Width: 10 um\nHeight: 34 um\nZ unit: um\nZ factor: 0.001\n";
+  static const char *const scale = "Width: 10 um\nHeight: 34 um\nZ-Scale [pm]: 1000\n";
+  const struct {
+    const char *header;
+    char decimal;
+  } headers[] = {{german, ','}, {french, ','}, {factor, '.'}, {scale, '.'}};
+  for (size_t i = 0; i < G_N_ELEMENTS(headers); i++) {
+    GString *text = matrix(headers[i].header, "\t", headers[i].decimal, "nan");
+    assert_text(text, &plain, &h);
+    g_string_free(text, TRUE);
+  }
+  GString *text = matrix(factor, "\t", '.', "nan");
+  SbScan scan;
+  g_assert_true(
+      sb_scan_parse(&scan, text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "x", NULL));
+  assert_same(&scan, &h, 1e-20);
+  g_assert_nonnull(strstr(scan.notes->pdata[0], "factor 0.001 is not used"));
+  sb_scan_clear(&scan);
+  g_string_free(text, TRUE);
+  // ESRI with decimal commas; a profile whose units follow the names; blocks of results above.
+  h.dy = h.dx;
+  text = matrix("ncols 20\nnrows 17\nxllcorner 0,0\nyllcorner 0,0\ncellsize 0,5\n"
+                "NODATA_value -9999\n",
+                " ", ',', "-9999");
+  assert_text(text, &(SbScanChoices){.unit = 1e-9, .lateral_unit = 1e-6}, &h);
+  g_string_free(text, TRUE);
+  h.rows = 1;
+  text = g_string_new("Scan Parameters\nLength,64.0 um\nRa,10.0 um,0.6 um\n\nScan Data\n"
+                      "Lateral um,Raw Micrometer,\n");
+  GString *linked = g_string_new("x in \xc2\xb5m;z in nm\n");
+  for (int j = 0; j < COLUMNS; j++) {
+    g_string_append_printf(text, "%.2f,%.6f,,\n", 0.5 * j, 1e6 * height[j]);
+    g_string_append_printf(linked, "%.2f;%.3f\n", 0.5 * j, 1e9 * height[j]);
+  }
+  g_strdelimit(linked->str + 18, ".", ',');
+  assert_text(text, &plain, &h);
+  assert_text(linked, &plain, &h);
+  g_string_free(text, TRUE);
+  g_string_free(linked, TRUE);
+}
+
 static void test_points(void) {
   const SbHeights h = written();
   // Columns first, and rows first; missing points not there.
@@ -382,6 +433,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/scan/sur", test_sur);
   g_test_add_func("/scan/x3p", test_x3p);
   g_test_add_func("/scan/matrix", test_matrix);
+  g_test_add_func("/scan/headers", test_headers);
   g_test_add_func("/scan/points", test_points);
   g_test_add_func("/scan/profile", test_profile);
   g_test_add_func("/scan/numbers", test_numbers);

@@ -159,7 +159,7 @@ static void on_as_found(GtkWidget *button, Dialog *dialog) {
 static const Row measured_rows[] = {
     {"separator", N_("Separator"), "comma|semicolon|tab|blank"},
     {"decimal", N_("Decimal mark"), "point|comma"},
-    {"encoding", N_("Encoding"), "utf-8|latin-1|utf-16le|utf-16be"},
+    {"encoding", N_("Encoding"), "utf-8|latin-1|utf-16le|utf-16be|shift-jis"},
     {"columns", N_("Columns"), NULL},
     {"units", N_("Units"), NULL},
     {"speed", N_("Speed, of the time alone"), NULL},

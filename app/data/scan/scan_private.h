@@ -2,6 +2,7 @@
 #pragma once
 
 #include "app/base/error.h"
+#include "app/base/text_table.h"
 #include "app/data/scan/scan.h"
 
 #include <string.h>
@@ -73,27 +74,21 @@ static inline double sb_scan_double(const guchar *p) {
 
 // A header line "key = value unit".
 typedef struct {
-  char *key;   // only its small letters and digits: "Z Unit" is "zunit"
-  char *value; // as it is in the file
-  char *unit;  // from brackets in the key or after a number; empty: none
+  char *key;     // only its letters and digits, small: "Z Unit" is "zunit"
+  char *value;   // as it is in the file
+  double number; // with which the value begins; NaN: none
+  char *unit;    // from brackets in the key or after a number; empty: none
 } SbScanEntry;
 
 // A text file split into the entries of its header and all its numbers.
 typedef struct {
-  const char *name;    // of the file, borrowed
-  GPtrArray *entries;  // of SbScanEntry
-  GPtrArray *units;    // of char *: units of the line above the numbers, one a column; or empty
-  GArray *numbers;     // of double, row after row; NaN: missing
-  gsize rows, columns; // of the numbers
-  int ragged;          // number of the first line with another count of numbers; 0: none
+  const char *name;         // of the file, borrowed
+  GPtrArray *entries;       // of SbScanEntry
+  const SbTextTable *table; // its columns and their units
+  GArray *numbers;          // of double, row after row; NaN: missing
+  gsize rows, columns;      // of the numbers
+  int ragged;               // number of the first line with another count of numbers; 0: none
 } SbScanText;
-
-// Splits a file. Returns FALSE with an error if it is not text or contains no numbers. Call
-// sb_scan_text_clear() in any case.
-gboolean sb_scan_text_read(SbScanText *out, SbScanBytes bytes, GError **error);
-
-// Frees what a split file owns.
-void sb_scan_text_clear(SbScanText *text);
 
 // Writes points with columns x, y, z to the grid that they form, for which sb_scan_is_grid()
 // returned TRUE: allocates the heights (positions without a point are NaN) and sets dx and dy.

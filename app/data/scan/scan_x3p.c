@@ -1,7 +1,8 @@
 // X3P (ISO 25178-72, ISO 5436-2): a zip whose main.xml says what the binary members hold. Taken are
 // surfaces and profiles on an even grid: Record1's axes (CX, CY with increments, CZ of type I, L, F
 // or D with increment and offset) in metres, Record3's matrix dimension and data link; points are
-// missing where a bit of the valid-points member is 0 (lowest first) or a number is none. Leaves
+// missing where a bit of the valid-points member is 0 (lowest first) or a number is none. The zip
+// may have a root folder, its names and the XML's in any case, and main.xml in UTF-16. Leaves
 // out lists of points, data within the XML, several layers, the check sums (the zip has its own).
 #include "app/data/scan/scan_private.h"
 
@@ -68,7 +69,7 @@ static void on_text(GMarkupParseContext *context, const char *text, gsize length
   const char *path = main->path->len > 0 ? strchr(main->path->str + 1, '/') : NULL;
   for (int i = 0; path != NULL && i < ENTRIES; i++) {
     Entry *entry = &main->entry[i];
-    if (strcmp(path + 1, entry->path) == 0 && entry->text == NULL) {
+    if (g_ascii_strcasecmp(path + 1, entry->path) == 0 && entry->text == NULL) {
       entry->text = g_strstrip(g_strndup(text, length));
     }
   }
@@ -97,15 +98,43 @@ static const char *text_of(const Main *main, int entry) {
 
 // ---- The zip ----
 
+// Returns the index of a member by the path after the folder of main.xml; -1 without one. The exact
+// path wins; the case of letters, the kind of slashes and a folder around everything do not matter.
+static zip_int64_t find_member(zip_t *zip, const char *path) {
+  enum { MEMBERS_MAX = 10000 };
+  g_autofree char *plain = g_strdelimit(g_strdup(path), "\\", '/');
+  const char *wanted = g_str_has_prefix(plain, "./") ? plain + 2 : plain;
+  wanted += *wanted == '/';
+  zip_int64_t found = -1, best = G_MAXINT64;
+  const zip_int64_t count = MIN(zip_get_num_entries(zip, 0), MEMBERS_MAX);
+  const size_t length = strlen(wanted);
+  for (zip_int64_t i = 0; i < count && best > 0; i++) {
+    const char *raw = zip_get_name(zip, (zip_uint64_t)i, 0);
+    g_autofree char *name = g_strdelimit(g_strdup(raw != NULL ? raw : ""), "\\", '/');
+    const size_t size = strlen(name);
+    if (size < length || g_ascii_strcasecmp(name + size - length, wanted) != 0 ||
+        (size > length && name[size - length - 1] != '/')) {
+      continue;
+    }
+    // The least deep one; the folders of a resource fork that archivers add are deeper.
+    const zip_int64_t depth = (zip_int64_t)(size - length);
+    if (depth < best) {
+      best = depth;
+      found = i;
+    }
+  }
+  return found;
+}
+
 // A member's bytes; NULL with an error. Deflate packs at most 1032 to one: more is announced by a
 // bomb alone.
 static guchar *member(zip_t *zip, const char *member_name, guint64 *size, guint64 most,
                       const SbScanBytes *bytes, GError **error) {
   zip_stat_t about;
   const guint64 length = (guint64)(bytes->end - bytes->at);
-  // A link may begin with the folder it is in.
-  const char *path = g_str_has_prefix(member_name, "./") ? member_name + 2 : member_name;
-  if (zip_stat(zip, path, 0, &about) != 0 || (about.valid & ZIP_STAT_SIZE) == 0) {
+  const zip_int64_t at = find_member(zip, member_name);
+  if (at < 0 || zip_stat_index(zip, (zip_uint64_t)at, 0, &about) != 0 ||
+      (about.valid & ZIP_STAT_SIZE) == 0) {
     sb_scan_fail(error, bytes->name, "has no member \"%s\"", member_name);
     return NULL;
   }
@@ -116,7 +145,7 @@ static guchar *member(zip_t *zip, const char *member_name, guint64 *size, guint6
     return NULL;
   }
   guchar *out = g_try_malloc(about.size + 1);
-  zip_file_t *file = out != NULL ? zip_fopen(zip, path, 0) : NULL;
+  zip_file_t *file = out != NULL ? zip_fopen_index(zip, (zip_uint64_t)at, 0) : NULL;
   const zip_int64_t got = file != NULL ? zip_fread(file, out, about.size) : -1;
   // The check sum is looked at when there is no more.
   char end;
@@ -141,11 +170,23 @@ static gboolean read_main(Main *main, zip_t *zip, const SbScanBytes *bytes, GErr
   if (xml == NULL) {
     return FALSE;
   }
-  const guint64 mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
+  g_autofree char *utf8 = NULL;
+  if (size >= 2 && (memcmp(xml, "\xff\xfe", 2) == 0 || memcmp(xml, "\xfe\xff", 2) == 0 ||
+                    memcmp(xml, "<", 2) == 0 || memcmp(xml, "\0<", 2) == 0)) {
+    const char *wide = xml[0] == '\0' ? "UTF-16BE" : xml[1] == '\0' ? "UTF-16LE" : "UTF-16";
+    gsize count = 0;
+    utf8 = g_convert(xml, (gssize)size, "UTF-8", wide, NULL, &count, NULL);
+    if (utf8 == NULL) {
+      return sb_scan_fail(error, bytes->name, "main.xml is not sound UTF-16");
+    }
+    size = count;
+  }
+  const char *plain = utf8 != NULL ? utf8 : xml;
+  const guint64 mark = g_str_has_prefix(plain, "\xef\xbb\xbf") ? 3 : 0;
   g_autoptr(GMarkupParseContext) context =
       g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, main, NULL);
   g_autoptr(GError) problem = NULL;
-  if (!g_markup_parse_context_parse(context, xml + mark, (gssize)(size - mark), &problem) ||
+  if (!g_markup_parse_context_parse(context, plain + mark, (gssize)(size - mark), &problem) ||
       !g_markup_parse_context_end_parse(context, &problem)) {
     return sb_scan_fail(error, bytes->name, "main.xml: %s", problem->message);
   }
@@ -156,7 +197,7 @@ static gboolean read_main(Main *main, zip_t *zip, const SbScanBytes *bytes, GErr
 static gboolean read_step(double *out, const Main *main, int type, const char *axis,
                           const SbScanBytes *bytes, GError **error) {
   *out = number(main, type + 1, NAN);
-  if (strcmp(text_of(main, type), "I") != 0) {
+  if (g_ascii_strcasecmp(text_of(main, type), "I") != 0) {
     return sb_scan_fail(error, bytes->name,
                         "%s is not an incremental axis: points at any place are "
                         "not read",
@@ -175,7 +216,8 @@ static gboolean read_points(SbScan *out, const Main *main, zip_t *zip, const SbS
   const char *name = bytes->name, *type = text_of(main, Z_TYPE);
   const double columns = number(main, COLUMNS, NAN), rows = number(main, ROWS, 1);
   gsize kind = 0;
-  while (kind < G_N_ELEMENTS(kinds) && (type[0] != kinds[kind].type || type[1] != '\0')) {
+  while (kind < G_N_ELEMENTS(kinds) &&
+         (g_ascii_toupper(type[0]) != kinds[kind].type || type[1] != '\0')) {
     kind++;
   }
   if (kind == G_N_ELEMENTS(kinds)) {
@@ -222,10 +264,10 @@ static gboolean read_points(SbScan *out, const Main *main, zip_t *zip, const SbS
   }
   for (guint64 i = 0; i < points; i++) {
     const guchar *p = data + size * i;
-    const double value = type[0] == 'I'   ? (double)(gint16)sb_scan_u16(p)
-                         : type[0] == 'L' ? (double)(gint32)sb_scan_u32(p)
-                         : type[0] == 'F' ? sb_scan_float(p)
-                                          : sb_scan_double(p);
+    const double value = kinds[kind].type == 'I'   ? (double)(gint16)sb_scan_u16(p)
+                         : kinds[kind].type == 'L' ? (double)(gint32)sb_scan_u32(p)
+                         : kinds[kind].type == 'F' ? sb_scan_float(p)
+                                                   : sb_scan_double(p);
     const gboolean there = valid == NULL || (valid[i / 8] >> (i % 8) & 1) != 0;
     out->heights.z[i] = there ? step * value : NAN;
   }
@@ -261,7 +303,7 @@ gboolean sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *
                .path = g_string_new(NULL)};
   gboolean good = read_main(&main, zip, &bytes, error);
   const char *feature = text_of(&main, FEATURE);
-  if (good && strcmp(feature, "SUR") != 0 && strcmp(feature, "PRF") != 0) {
+  if (good && g_ascii_strcasecmp(feature, "SUR") != 0 && g_ascii_strcasecmp(feature, "PRF") != 0) {
     good =
         sb_scan_fail(error, bytes.name, "has the feature type \"%s\" (allowed SUR, PRF)", feature);
   }

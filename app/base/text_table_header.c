@@ -1,0 +1,253 @@
+// Headers of tables: names and units of the columns; see text_table.h.
+#include "app/base/number.h"
+#include "app/base/text_table_private.h"
+
+#include <string.h>
+
+enum { HEADER_LINES = 1000, HEADER_BYTES = 4096 };
+
+// ---- Units ----
+
+static const struct {
+  const char *unit, *also;
+} known_units[] = {
+#define SB_TEXT_UNIT(unit, also) {unit, also},
+#include "app/base/text_table_units.def"
+#undef SB_TEXT_UNIT
+};
+
+const char *sb_text_table_unit(const char *text) {
+  g_auto(GStrv) parts = g_strsplit(text, "\xce\xbc", -1); // the other letter that looks like a µ
+  g_autofree char *plain = g_strstrip(g_strjoinv("\xc2\xb5", parts));
+  g_autofree char *folded = g_utf8_strdown(plain, -1);
+  for (size_t i = 0; i < G_N_ELEMENTS(known_units); i++) {
+    if (strcmp(known_units[i].unit, plain) == 0) {
+      return known_units[i].unit;
+    }
+  }
+  g_autofree char *entry = g_strconcat("|", folded, "|", NULL);
+  for (size_t i = 0; i < G_N_ELEMENTS(known_units) && *folded != '\0'; i++) {
+    g_autofree char *also =
+        g_strconcat("|", known_units[i].unit, "|", known_units[i].also, "|", NULL);
+    g_autofree char *all = g_utf8_strdown(also, -1);
+    if (strchr(folded, '|') == NULL && strstr(all, entry) != NULL) {
+      return known_units[i].unit;
+    }
+  }
+  return NULL;
+}
+
+// Returns a unit without brackets, in its usual spelling where that is known. Owned by the caller.
+static char *unit_text(const char *text, size_t length) {
+  g_autofree char *one = g_strstrip(g_strndup(text, length));
+  const size_t end = strlen(one);
+  if (end >= 2 && strchr("[({<", *one) != NULL && strchr("])}>", one[end - 1]) != NULL) {
+    return unit_text(one + 1, end - 2);
+  }
+  const char *known = sb_text_table_unit(one);
+  return known != NULL ? g_strdup(known) : g_steal_pointer(&one);
+}
+
+// Whether a text is a unit: a known one, or a quotient of known ones.
+static bool is_unit(const char *text) {
+  g_auto(GStrv) parts = g_strsplit(text, "/", 3);
+  bool all = parts[0] != NULL;
+  for (char **part = parts; *part != NULL; part++) {
+    g_autofree char *power = g_strdup(*part);
+    for (size_t end = strlen(power); end > 1 && strchr("^23", power[end - 1]) != NULL; end--) {
+      power[end - 1] = '\0';
+    }
+    all = all && sb_text_table_unit(power) != NULL;
+  }
+  return all;
+}
+
+// ---- Names ----
+
+// "Force [N]", "Kraft / N", "load_N", "x in µm" -> name and unit. Both owned by the caller.
+static void split_name(char **name, char **unit, const char *text) {
+  static const char *const links[] = {" in ", " en ", "/", "_", ",", ":", " "};
+  const size_t length = strlen(text);
+  const char *open = NULL, *close = NULL;
+  *unit = NULL;
+  for (const char *c = text + length; c > text && *unit == NULL; c--) {
+    // The last brackets with a unit; else what is in brackets at the end.
+    if (strchr("])}>", c[-1]) != NULL) {
+      close = c - 1;
+    } else if (close != NULL && strchr("[({<", c[-1]) != NULL) {
+      g_autofree char *inside = unit_text(c, (size_t)(close - c));
+      if (is_unit(inside) || (close == text + length - 1 && open == NULL)) {
+        open = c - 1;
+        g_free(*unit);
+        *unit = g_steal_pointer(&inside);
+      }
+      close = NULL;
+    }
+  }
+  for (size_t i = 0; i < G_N_ELEMENTS(links) && *unit == NULL; i++) {
+    const char *link = g_strrstr(text, links[i]);
+    g_autofree char *tail =
+        link != NULL ? unit_text(link + strlen(links[i]), strlen(link + strlen(links[i]))) : NULL;
+    if (link != NULL && link > text && is_unit(tail)) {
+      open = link;
+      *unit = g_steal_pointer(&tail);
+    }
+  }
+  *name = g_strstrip(g_strndup(text, open != NULL ? (size_t)(open - text) : length));
+  *unit = *unit != NULL ? *unit : g_strdup("");
+}
+
+static void add_cell(GPtrArray *out, const char *text, size_t length,
+                     SbTextTableEncoding encoding) {
+  g_autofree char *cell = sb_text_table_utf8(text, length, encoding);
+  g_auto(GStrv) parts = g_strsplit(cell, "\"\"", -1);
+  g_ptr_array_add(out, g_strjoinv("\"", parts));
+}
+
+// Cells of a header line with a separator; 0 for two blanks or more.
+static GPtrArray *cells_by(const char *line, size_t length, char separator,
+                           SbTextTableEncoding encoding) {
+  GPtrArray *out = g_ptr_array_new_with_free_func(g_free);
+  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
+  if (separator != '\0') {
+    const size_t cells = sb_text_table_split(cell, line, length, separator);
+    for (size_t i = 0; i < cells; i++) {
+      add_cell(out, cell[i].text, cell[i].length, encoding);
+      const char *text = out->pdata[out->len - 1];
+      // A unit between blanks is part of the name before it.
+      if (separator == ' ' && out->len > 1 && *text != '\0' && strchr("[(", *text) != NULL) {
+        g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
+        g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
+        g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
+      }
+    }
+    return out;
+  }
+  g_autofree char *copy = g_strndup(line, length);
+  g_auto(GStrv) parts = g_strsplit(copy, "  ", -1);
+  for (char **part = parts; *part != NULL; part++) {
+    g_strstrip(*part);
+    if (**part != '\0') {
+      add_cell(out, *part, strlen(*part), encoding);
+    }
+  }
+  return out;
+}
+
+// With the separator of the rows; if that gives another number of cells than the rows have, with
+// the first one that gives it.
+char **sb_text_table_header_cells(const SbTextTable *table, const GString *line) {
+  const char separators[] = {table->dialect.separator, '\t', ';', ',', '\0'};
+  size_t length = MIN(line->len, HEADER_BYTES), skip = 0;
+  while (skip < length && memchr("#%! ", line->str[skip], skip > 0 ? 4 : 3) != NULL) {
+    skip++;
+  }
+  GPtrArray *best = NULL;
+  for (size_t i = 0; i < G_N_ELEMENTS(separators); i++) {
+    GPtrArray *cells =
+        cells_by(line->str + skip, length - skip, separators[i], table->dialect.encoding);
+    const bool fits = cells->len == table->columns;
+    if (best == NULL || fits) {
+      g_clear_pointer(&best, g_ptr_array_unref);
+      best = g_ptr_array_ref(cells);
+    }
+    g_ptr_array_unref(cells);
+    if (fits) {
+      break;
+    }
+  }
+  g_ptr_array_add(best, NULL);
+  g_ptr_array_set_free_func(best, NULL);
+  return (char **)g_ptr_array_free(best, FALSE);
+}
+
+// Most cells are units.
+static bool are_units(char *const *cells) {
+  int texts = 0, known = 0;
+  for (char *const *cell = cells; *cell != NULL; cell++) {
+    const size_t length = strlen(*cell);
+    const bool bracketed =
+        length >= 2 && strchr("[(", **cell) != NULL && strchr("])", (*cell)[length - 1]) != NULL;
+    texts += length > 0;
+    known += length > 0 && (bracketed || is_unit(*cell));
+  }
+  return known > 0 && 2 * known > texts;
+}
+
+// Whether a header line can name the columns: it has a text for nearly all that have numbers.
+static bool names_columns(const SbTextTable *table, char *const *cells) {
+  size_t texts = 0, numbers = 0, count = 0;
+  for (; cells[count] != NULL; count++) {
+    texts += count < table->columns && *cells[count] != '\0';
+  }
+  for (size_t i = 0; i < table->columns; i++) {
+    numbers += table->column[i].numeric || table->column[i].clock;
+  }
+  return count > 0 && texts + (numbers > 2) >= numbers &&
+         (count <= table->columns || texts == table->columns);
+}
+
+// Takes units, or names with units, from a header line.
+static void take_line(SbTextTable *table, char *const *cells, bool units_only) {
+  for (size_t k = 0; k < table->columns && cells[k] != NULL; k++) {
+    SbTextTableColumn *column = &table->column[k];
+    g_autofree char *unit = NULL, *name = NULL;
+    if (units_only) {
+      unit = unit_text(cells[k], strlen(cells[k]));
+    } else {
+      split_name(&name, &unit, cells[k]);
+      g_free(column->name);
+      column->name = g_steal_pointer(&name);
+    }
+    if (*column->unit == '\0' || (units_only && *unit != '\0')) {
+      g_free(column->unit);
+      column->unit = g_steal_pointer(&unit);
+    }
+  }
+}
+
+void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count) {
+  enum { LOOKED = 12 };
+  bool named = false, united = false, stopped = false;
+  for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
+    const SbTextTableShape shape = sb_text_table_shape(line[i]->str, line[i]->len, &table->dialect);
+    g_auto(GStrv) cells = sb_text_table_header_cells(table, line[i]);
+    const bool units = are_units(cells), titled = names_columns(table, cells);
+    // The rows of a block above, or the first line above the names that is not units, end it.
+    stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;
+    if (stopped || (!titled && !units)) {
+      stopped |= named && cells[0] != NULL;
+    } else if (units && !united) {
+      take_line(table, cells, true);
+      united = true;
+    } else if (!units && !named) {
+      take_line(table, cells, false);
+      named = true;
+    } else {
+      stopped = true;
+    }
+  }
+  GPtrArray *texts = g_ptr_array_new();
+  for (size_t i = 0; i < MIN(count, HEADER_LINES); i++) {
+    g_autofree char *copy = g_strndup(line[i]->str, MIN(line[i]->len, HEADER_BYTES));
+    char *text = copy;
+    while (*text != '\0' && strchr("#;%!/ \t", *text) != NULL) {
+      text++;
+    }
+    g_strdelimit(text, "\t", ' ');
+    g_ptr_array_add(texts, sb_text_table_utf8(text, strlen(text), table->dialect.encoding));
+  }
+  g_ptr_array_add(texts, NULL);
+  table->header = (char **)g_ptr_array_free(texts, FALSE);
+}
+
+size_t sb_text_table_number_at(double *out, const char *text, char decimal) {
+  const size_t whole = strspn(text, "+-0123456789");
+  const size_t part = text[whole] == ',' ? strspn(text + whole + 1, "0123456789") : 0;
+  if (part == 0 || (decimal != ',' && part == 3)) {
+    return sb_number_read(out, text);
+  }
+  g_autofree char *point = g_strdup(text);
+  point[whole] = '.';
+  return sb_number_read(out, point);
+}
