@@ -17,7 +17,7 @@ static const double force_size = 400.0;
 // Smallest position, speed and deflection to which the tolerance refers [m, m/s, m].
 static const double place_size = 1e-3, speed_size = 1e-3, deflection_size = 1e-5;
 
-// Stiffness over mass [1/s2] above which rounding outdoes the tolerance: 1e5 rad/s.
+// Stiffness over mass [1/s2] above which rounding exceeds the tolerance in most steps: 1e5 rad/s.
 static const double stiff_square = 1e10;
 
 static bool has_closed_form(const SbDynamics *s) {
@@ -218,7 +218,7 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
   const SbDynamicsModel *m = s->model;
   double square = p->sum.k / s->mass;
   *noise = 0.0;
-  for (size_t w = 0; w < SB_DYNAMICS_WALLS && square > stiff_square; w++) {
+  for (size_t w = 0; w < SB_DYNAMICS_WALLS; w++) {
     if (s->wall[w].on && p->wall[w].k > 0.0) {
       const Moving at = sb_motion_wall_at(s, w, s->t);
       *noise += DBL_EPSILON * (fabs(at.value) + fabs(at.rate * s->t)) * p->wall[w].k / s->mass;
@@ -228,8 +228,10 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
   s->system = (SbRadauSystem){.powers = SB_DYNAMICS_TERMS,
                               .rates = numerical_rates,
                               .user = s,
-                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9};
-  s->speed_size = fmax(speed_size, 10.0 * *speed / s->system.tolerance);
+                              .tolerance = m->tolerance > 0.0 ? m->tolerance : 1e-9,
+                              .noisy = square > stiff_square};
+  s->speed_size =
+      s->system.noisy ? fmax(speed_size, 10.0 * *speed / s->system.tolerance) : speed_size;
   if (!s->held) {
     add_unknown(s, X, place_size, p->sum.k);
     add_unknown(s, V, s->speed_size, 0.0);

@@ -88,15 +88,17 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N]) {
 // what is left after it.
 static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const double *z, double h,
                   const Factors *f, bool wanted, long *iterations) {
+  enum { ITERATIONS = 12 };
   step->t = t;
   step->h = h;
   memcpy(step->z0, z, s->n * sizeof *z);
   double previous = INFINITY;
-  bool noisy = false; // as far as the system knows
+  double noise = 0.0; // of an update, divided by its tolerance, as far as the system knows
   for (size_t i = 0; i < s->n; i++) {
-    noisy = noisy || s->noise[i] > 0.0;
+    noise = fmax(noise, h * s->noise[i] / scale(s, i, z[i]));
   }
-  for (int iteration = 0; iteration < 12; iteration++) {
+  const bool noisy = s->noisy && noise > 0.0;
+  for (int iteration = 0; iteration < ITERATIONS; iteration++) {
     double residual[UNKNOWNS];
     for (size_t a = 0; a < S; a++) {
       double at[N] = {0}, dz[N];
@@ -118,8 +120,8 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
         double change = residual[a * s->n + i];
         step->k[a][i] += change;
         size = fmax(size, fabs(h * change) / scale(s, i, z[i]));
-        rounding =
-            rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]) + s->noise[i];
+        rounding = rounding && fabs(change) <= 64.0 * DBL_EPSILON * fabs(step->k[a][i]) +
+                                                   (noisy ? s->noise[i] : 0.0);
       }
     }
     if (!isfinite(size)) {
@@ -128,6 +130,9 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
     // The iteration contracts steadily: the next update would be smaller by as much as this one.
     double left = iteration > 0 ? size * (size / previous) : size;
     bool floor = noisy && iteration > 1 && size < stalled && size > 0.8 * previous;
+    const bool ends = iteration + 1 == ITERATIONS || (iteration > 1 && size > 2.0 * previous);
+    // Where the iteration does not converge, updates of the size of the rounding are its end.
+    floor = floor || (ends && size < stalled && size <= noise);
     if ((wanted ? size : left) < enough || rounding || floor) {
       for (size_t i = 0; i < s->n; i++) {
         step->z1[i] = z[i];
@@ -137,7 +142,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
       }
       return true;
     }
-    if (iteration > 1 && size > 2.0 * previous) {
+    if (ends) {
       return false;
     }
     previous = size;

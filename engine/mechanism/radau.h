@@ -28,8 +28,10 @@ typedef struct {
   double tolerance;             // relative, per step
   double floor[SB_RADAU_MAX];   // added to |z|: the error of z is scaled by tolerance (|z| + floor)
   double ceiling[SB_RADAU_MAX]; // upper limit of |z| + floor; 0: none
-  double noise[SB_RADAU_MAX]; // rounding error of dz, below which Newton's iteration stops; 0: not
-                              // known
+  double noise[SB_RADAU_MAX];   // rounding error of dz; 0: not known
+  // Newton's iteration stops as soon as its updates are as small as `noise`, which exceeds the
+  // tolerance. false: it stops there only where it does not converge further.
+  bool noisy;
 } SbRadauSystem;
 
 // A completed step.
