@@ -11,8 +11,8 @@
 enum { PIECES_MAX = 5000 };
 
 // Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
-// a line or circle from the next one that continues it [m].
-static const double SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9;
+// a circle from the next one that continues it, and of a line from points on it [m].
+static const double SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8;
 
 static SbCadPiece reversed(SbCadPiece piece) {
   return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
@@ -264,7 +264,7 @@ static bool join_arcs(SbCadPiece *last, const SbCadPiece *next) {
 }
 
 // Returns whether the straight pieces from `first` to `last` of a chain follow one line forwards
-// within SB_CAD_TOLERANCE.
+// within STRAIGHT.
 static bool is_straight(const GArray *chain, guint first, guint last) {
   const SbCadPiece *from = &g_array_index(chain, SbCadPiece, first);
   const SbCadPiece *to = &g_array_index(chain, SbCadPiece, last);
@@ -273,7 +273,7 @@ static bool is_straight(const GArray *chain, guint first, guint last) {
   bool good = line.x0 != line.x1 || line.y0 != line.y1;
   for (guint i = first + 1; good && i <= last; i++) {
     const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
-    const double at = place_on(&line, piece->x0, piece->y0, SB_CAD_TOLERANCE);
+    const double at = place_on(&line, piece->x0, piece->y0, STRAIGHT);
     good = at > before && at < 1;
     before = at;
   }
