@@ -1,8 +1,10 @@
 // Beside the section: its title, the legends of its colours, the balance of forces.
 #include "app/section/section_private.h"
 
+#include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/chart/data.h"
+#include "app/draw/axis.h"
 #include "app/draw/theme.h"
 
 #include <glib.h>
@@ -35,25 +37,21 @@ static double legend(SbSection *section, double x, double y, double width, const
   if (!(max > min)) { // one value everywhere, or none known
     return 62;
   }
-  double target = (max - min) / 3;
-  double unit_step = pow(10, floor(log10(target)));
-  double m = target / unit_step;
-  double step = unit_step * (m >= 5 ? 5 : m >= 2 ? 2 : 1);
+  const SbScale scale = {min, max, x, x + width, false};
+  char text[SB_FORMAT_MAX];
+  SbTicks ticks;
   // Signed numbers on a short bar need a coarser step.
-  char widest[SB_SECTION_NUMBER];
-  for (int tries = 0; tries < 3; tries++) {
-    sb_section_fixed(widest, min < 0 ? min : max, step >= 1 ? 0 : (int)ceil(-log10(step) - 1e-9));
-    if (sb_text_width(section->text, widest, 11, 400) + 6 < step / (max - min) * width) {
+  for (int wanted = 5; wanted > 1; wanted--) {
+    sb_axis_ticks(&ticks, min, max, wanted);
+    sb_axis_text(text, &ticks, ticks.value[min < 0 ? 0 : ticks.count - 1]);
+    if (sb_text_width(section->text, text, 11, 400) + 6 < ticks.step / (max - min) * width) {
       break;
     }
-    double digit = step / pow(10, floor(log10(step) + 1e-9));
-    step *= digit > 1.5 && digit < 3 ? 2.5 : 2;
   }
-  for (double v = ceil(min / step - 1e-9) * step; v <= max * (1 + 1e-9); v += step) {
-    double tick = x + (v - min) / (max - min) * width;
+  for (int i = 0; i < ticks.count; i++) {
+    const double tick = sb_axis_at(&scale, ticks.value[i]);
+    sb_axis_text(text, &ticks, ticks.value[i]);
     sb_draw_line(list, tick, y1 + 1, tick, y1 + 5, 1, palette->axis);
-    char text[SB_SECTION_NUMBER];
-    sb_section_fixed(text, v, step >= 1 ? 0 : (int)ceil(-log10(step) - 1e-9));
     sb_draw_text(list, tick, y1 + 17, 11, 400, SB_MIDDLE, palette->second, text);
   }
   return 62;
