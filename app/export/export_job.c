@@ -292,18 +292,10 @@ SbExportJob *sb_export_job_start(SbRunHandle *handle, SbExportRequest *request,
   return job;
 }
 
-double sb_export_job_progress(SbExportJob *job) {
-  return sb_worker_progress(&job->worker);
-}
-
 double sb_export_job_left(SbExportJob *job) {
-  double done = sb_export_job_progress(job);
+  double done = sb_worker_progress(job);
   double elapsed = 1e-6 * (double)(g_get_monotonic_time() - job->begin);
   return done > 0 && elapsed > 0.5 ? elapsed * (1 - done) / done : -1;
-}
-
-void sb_export_job_cancel(SbExportJob *job) {
-  sb_worker_cancel(&job->worker);
 }
 
 const char *sb_export_job_result(SbExportJob *job, gboolean *good) {

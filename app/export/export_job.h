@@ -46,19 +46,15 @@ typedef struct SbExportJob SbExportJob;
 // of `request`, which is zeroed. `done` is called once in the main thread when the export has ended
 // (also after failure or cancellation), unless the job was freed before. Never NULL; freed by
 // sb_export_job_free().
+//
+// sb_worker_progress() takes the job; the progress of a picture is 0 until it is finished. So does
+// sb_worker_cancel(): an MP4 then keeps the pictures done so far and can be played; pictures of a
+// sequence stay; a single picture is completed; animations, reports and .json are not written.
 SbExportJob *sb_export_job_start(SbRunHandle *handle, SbExportRequest *request,
                                  void (*done)(void *data), void *data);
 
-// Returns the fraction done, 0 to 1; that of a picture is 0 until it is finished.
-double sb_export_job_progress(SbExportJob *job);
-
 // Returns the estimated remaining time [s]; negative: there is no estimate yet.
 double sb_export_job_left(SbExportJob *job);
-
-// Requests cancellation and returns immediately; `done` follows. An MP4 keeps the pictures done so
-// far and can be played; pictures of a sequence stay; a single picture is completed; animations,
-// reports and .json are not written.
-void sb_export_job_cancel(SbExportJob *job);
 
 // Only after `done`: returns a sentence about the result, translated; *good is set to whether the
 // export succeeded. Borrowed from the job.

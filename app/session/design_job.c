@@ -399,10 +399,6 @@ SbDesignPart sb_design_job_part(SbDesignJob *job) {
   return (SbDesignPart)g_atomic_int_get(&job->part);
 }
 
-double sb_design_job_progress(SbDesignJob *job) {
-  return sb_worker_progress(&job->worker);
-}
-
 void sb_design_job_pause(SbDesignJob *job, bool on) {
   lock(job);
   job->paused = on;

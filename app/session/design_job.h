@@ -23,7 +23,7 @@ typedef enum {
 // stores the evaluations of the map and of the valves; it is borrowed until the job is freed, and
 // only one job may use it at a time (NULL: nothing is stored). Without `search`, only the map and
 // the present design are computed. done(data) is called once in the main thread at the end, unless
-// the job was freed before. Freed by sb_design_job_free().
+// the job was freed before. sb_worker_progress() takes the job. Freed by sb_design_job_free().
 SbDesignJob *sb_design_job_start(SbStudyFile *study, const SbDesignAsk *ask, SbStore *store,
                                  bool search, void (*done)(void *data), void *data);
 
@@ -36,9 +36,6 @@ void sb_design_job_unlock(SbDesignJob *job);
 
 // Returns the part that is being computed.
 SbDesignPart sb_design_job_part(SbDesignJob *job);
-
-// Returns the fraction of all parts that is done, 0 to 1.
-double sb_design_job_progress(SbDesignJob *job);
 
 // Pauses the job between two valves (`on`), or continues it. Returns immediately.
 void sb_design_job_pause(SbDesignJob *job, bool on);

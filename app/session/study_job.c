@@ -31,14 +31,6 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
   return job;
 }
 
-double sb_study_job_progress(SbStudyJob *job) {
-  return sb_worker_progress(&job->worker);
-}
-
-void sb_study_job_cancel(SbStudyJob *job) {
-  sb_worker_cancel(&job->worker);
-}
-
 SbStudy *sb_study_job_take(SbStudyJob *job, const char **why) {
   if (job->status != SB_OK) {
     *why = job->report.text[0] != '\0' ? job->report.text : sb_status_text(job->status);

@@ -8,15 +8,10 @@
 typedef struct SbStudyJob SbStudyJob;
 
 // Starts to compute a study of a copy of `model`. done(data) is called once in the main thread at
-// the end, unless the job was freed before. Freed by sb_study_job_free().
+// the end, unless the job was freed before. Freed by sb_study_job_free(). sb_worker_progress() and
+// sb_worker_cancel() take the job; `done` follows a cancellation within one solve.
 SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*done)(void *data),
                                void *data);
-
-// Returns the fraction done, 0 to 1.
-double sb_study_job_progress(SbStudyJob *job);
-
-// Requests the end of the job and returns immediately; `done` follows within one solve.
-void sb_study_job_cancel(SbStudyJob *job);
 
 // To be called once, after `done`: returns the study, freed by g_free(). NULL: it was cancelled or
 // failed; *why is then a sentence, borrowed from the job.

@@ -37,12 +37,12 @@ bool sb_worker_cancelled(void *worker) {
   return g_atomic_int_get(&((SbWorker *)worker)->cancel) != 0;
 }
 
-double sb_worker_progress(SbWorker *worker) {
-  return g_atomic_int_get(&worker->per_mille) / 1000.0;
+double sb_worker_progress(void *worker) {
+  return g_atomic_int_get(&((SbWorker *)worker)->per_mille) / 1000.0;
 }
 
-void sb_worker_cancel(SbWorker *worker) {
-  g_atomic_int_set(&worker->cancel, 1);
+void sb_worker_cancel(void *worker) {
+  g_atomic_int_set(&((SbWorker *)worker)->cancel, 1);
 }
 
 void sb_worker_finish(SbWorker *worker) {

@@ -6,7 +6,7 @@
 #include <glib.h>
 #include <stdbool.h>
 
-// A worker, a member of its owner's structure. All members are for worker.c.
+// A worker, the first member of its owner's structure. All members are for worker.c.
 typedef struct {
   void (*work)(void *owner); // called in the thread
   void *owner;               // passed to `work`
@@ -26,18 +26,20 @@ typedef struct {
 void sb_worker_start(SbWorker *worker, const char *name, void (*work)(void *owner), void *owner,
                      void (*done)(void *data), void *data);
 
-// Called by `work`: sets the fraction done, 0 to 1. Like sb_worker_cancelled() it takes an
-// SbWorker * as a hook of the engine does.
+// The following functions take the worker or its owner, whose first member it is: as hooks of the
+// engine, and for a job that only its own file knows.
+
+// Called by `work`: sets the fraction done, 0 to 1.
 void sb_worker_set_progress(void *worker, double share);
 
 // Called by `work`: returns whether it is to end. Any thread.
 bool sb_worker_cancelled(void *worker);
 
 // Returns the fraction done, 0 to 1. Any thread.
-double sb_worker_progress(SbWorker *worker);
+double sb_worker_progress(void *worker);
 
 // Requests the end of the thread and returns immediately. Any thread.
-void sb_worker_cancel(SbWorker *worker);
+void sb_worker_cancel(void *worker);
 
 // Cancels, waits for the thread and releases the worker; `done` is not called afterwards. To be
 // called once for each started worker, in the main thread, also after `done`.

@@ -3,6 +3,7 @@
 
 #include "app/session/param_list.h"
 #include "app/session/verdict_text.h"
+#include "app/session/worker.h"
 
 #include <glib/gi18n.h>
 #include <glib/gstdio.h>
@@ -317,7 +318,7 @@ static void cancel(SbBench *bench) {
   if (bench->job != NULL) {
     sb_bench_study_stop(bench);
   } else if (bench->export != NULL) {
-    sb_export_job_cancel(bench->export);
+    sb_worker_cancel(bench->export);
     sb_bench_status(bench, false, _("cancelling…"));
   } else if (sb_session_state(bench->session) == SB_SESSION_RUNNING) {
     sb_session_stop(bench->session);

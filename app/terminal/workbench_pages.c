@@ -6,6 +6,7 @@
 #include "app/base/translation.h"
 #include "app/base/unit.h"
 #include "app/session/verdict_text.h"
+#include "app/session/worker.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -47,7 +48,7 @@ void sb_bench_study_start(SbBench *bench) {
 
 void sb_bench_study_stop(SbBench *bench) {
   if (bench->job != NULL) {
-    sb_study_job_cancel(bench->job);
+    sb_worker_cancel(bench->job);
     sb_bench_status(bench, false, _("cancelling…"));
   }
 }
@@ -125,7 +126,7 @@ static void draw_study(SbBench *bench, SbCellRect rect) {
 static void draw_study_state(SbBench *bench, SbCellRect rect) {
   g_autofree char *now = sb_document_sha256(sb_session_document(bench->session));
   if (bench->job != NULL) {
-    const double share = sb_study_job_progress(bench->job);
+    const double share = sb_worker_progress(bench->job);
     g_autofree char *text =
         g_strdup_printf("%s %.0f %%", sb_translation(sb_study_title(bench->job_kind)), 100 * share);
     sb_cells_text(&bench->cells, rect.x, rect.y, rect.width, text,

@@ -4,6 +4,7 @@
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/session/verdict_text.h"
+#include "app/session/worker.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -506,7 +507,7 @@ static char *run_text(SbBench *bench) {
   if (running || bench->export != NULL) {
     enum { CELLS = 12 };
     const double share =
-        running ? sb_session_progress(bench->session) : sb_export_job_progress(bench->export);
+        running ? sb_session_progress(bench->session) : sb_worker_progress(bench->export);
     GString *bar = g_string_new(NULL);
     for (int i = 0; i < CELLS; i++) {
       g_string_append(bar, i < share * CELLS ? "█" : "·");

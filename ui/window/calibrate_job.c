@@ -31,14 +31,6 @@ SbCalibrateJob *sb_calibrate_job_start(SbStudyFile *study, void (*done)(void *da
   return job;
 }
 
-double sb_calibrate_job_progress(SbCalibrateJob *job) {
-  return sb_worker_progress(&job->worker);
-}
-
-void sb_calibrate_job_cancel(SbCalibrateJob *job) {
-  sb_worker_cancel(&job->worker);
-}
-
 bool sb_calibrate_job_take(SbCalibrateJob *job, SbCalibration *out, SbStudyFile **study,
                            char **why) {
   const bool best = job->status == SB_ERROR_CANCELLED && job->found.partial;

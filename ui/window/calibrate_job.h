@@ -7,14 +7,9 @@ typedef struct SbCalibrateJob SbCalibrateJob;
 
 // Starts the calibration of `study`, which the job owns from now on. `done` is called once in the
 // main thread when it has ended, also after failure or cancellation, unless the job was freed
-// before. Never NULL; freed by sb_calibrate_job_free().
+// before. Never NULL; freed by sb_calibrate_job_free(). sb_worker_progress() and sb_worker_cancel()
+// take the job.
 SbCalibrateJob *sb_calibrate_job_start(SbStudyFile *study, void (*done)(void *data), void *data);
-
-// Returns the fraction done, 0 to 1.
-double sb_calibrate_job_progress(SbCalibrateJob *job);
-
-// Requests cancellation and returns immediately; `done` follows.
-void sb_calibrate_job_cancel(SbCalibrateJob *job);
 
 // Once, after `done`: moves the result to the caller: `out`, freed by sb_calibration_release(), and
 // its study, freed by sb_study_file_free() after `out`. Returns true also if the fit has not

@@ -5,6 +5,7 @@
 
 #include "app/base/translation.h"
 #include "app/export/calibrate_results.h"
+#include "app/session/worker.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
@@ -162,8 +163,7 @@ static void end_job(Page *page) {
 
 static void on_poll(gpointer data) {
   Page *page = data;
-  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress),
-                                sb_calibrate_job_progress(page->job));
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), sb_worker_progress(page->job));
 }
 
 static void forget(Page *page) {
@@ -231,7 +231,7 @@ static void on_use(GtkButton *button, Page *page) {
 
 static void on_stop(GtkButton *button, Page *page) {
   if (page->job != NULL) {
-    sb_calibrate_job_cancel(page->job);
+    sb_worker_cancel(page->job);
   }
 }
 

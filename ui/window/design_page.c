@@ -7,6 +7,7 @@
 #include "app/export/design_map.h"
 #include "app/session/design_job.h"
 #include "app/session/kept_store.h"
+#include "app/session/worker.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
@@ -232,8 +233,7 @@ static void on_poll(gpointer data) {
   Page *page = data;
   static const char *const parts[] = {N_("Computing the map"), N_("Searching for the best"),
                                       N_("Tolerances"), N_("Drawing valves")};
-  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress),
-                                sb_design_job_progress(page->job));
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), sb_worker_progress(page->job));
   const SbDesignPart part = sb_design_job_part(page->job);
   say(page,
       gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->pause)) ? _("Paused") : _(parts[part]));

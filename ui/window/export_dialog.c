@@ -7,6 +7,7 @@
 #include "app/export/export_job.h"
 #include "app/export/formats.h"
 #include "app/export/render.h"
+#include "app/session/worker.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
 #include "ui/window/preferences.h"
@@ -218,7 +219,7 @@ static void set_busy(Dialog *dialog, gboolean busy) {
 static void on_poll(gpointer data) {
   Dialog *dialog = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(dialog->progress),
-                                sb_export_job_progress(dialog->job));
+                                sb_worker_progress(dialog->job));
   double left = sb_export_job_left(dialog->job);
   g_autofree char *text = left >= 0 ? g_strdup_printf(_("%.0f s left"), left) : g_strdup("");
   gtk_progress_bar_set_text(GTK_PROGRESS_BAR(dialog->progress), text);
@@ -355,7 +356,7 @@ static void on_response(GtkDialog *widget, int response, Dialog *dialog) {
   if (response == GTK_RESPONSE_ACCEPT && dialog->job == NULL) {
     later(dialog, start);
   } else if (response == GTK_RESPONSE_CANCEL && dialog->job != NULL) {
-    sb_export_job_cancel(dialog->job);
+    sb_worker_cancel(dialog->job);
   } else if (response != GTK_RESPONSE_ACCEPT) {
     gtk_widget_destroy(dialog->dialog);
   }

@@ -7,6 +7,7 @@
 #include "app/base/unit.h"
 #include "app/chart/propellants.h"
 #include "app/session/study_job.h"
+#include "app/session/worker.h"
 #include "engine/fluid/fluid.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
@@ -117,7 +118,7 @@ static void say(Page *page, const char *text) {
 
 static void on_poll(gpointer data) {
   Page *page = data;
-  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), sb_study_job_progress(page->job));
+  gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), sb_worker_progress(page->job));
 }
 
 static void end_job(Page *page) {
@@ -257,7 +258,7 @@ static void on_choose(GtkButton *button, Page *page) {
 
 static void on_stop(GtkButton *button, Page *page) {
   if (page->job != NULL) {
-    sb_study_job_cancel(page->job);
+    sb_worker_cancel(page->job);
   }
 }
 

@@ -3,6 +3,7 @@
 #include "ui/window/review.h"
 
 #include "app/export/export_job.h"
+#include "app/session/worker.h"
 #include "ui/window/preferences.h"
 #include "ui/window/presentation.h"
 #include "ui/window/toast.h"
@@ -118,7 +119,7 @@ static void on_report(GSimpleAction *action, GVariant *parameter, gpointer data)
 static void on_cancel_report(GSimpleAction *action, GVariant *parameter, gpointer data) {
   Review *review = data;
   if (review->job != NULL) {
-    sb_export_job_cancel(review->job);
+    sb_worker_cancel(review->job);
   }
 }
 

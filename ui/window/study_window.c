@@ -9,6 +9,7 @@
 #include "app/chart/study.h"
 #include "app/export/studies.h"
 #include "app/session/study_job.h"
+#include "app/session/worker.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
@@ -123,7 +124,7 @@ static void judge(Studies *studies) {
 static void on_poll(gpointer data) {
   Studies *studies = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress),
-                                sb_study_job_progress(studies->job));
+                                sb_worker_progress(studies->job));
 }
 
 static void end_job(Studies *studies) {
@@ -201,7 +202,7 @@ static void on_again(GtkButton *button, Studies *studies) {
 
 static void on_stop(GtkButton *button, Studies *studies) {
   if (studies->job != NULL) {
-    sb_study_job_cancel(studies->job);
+    sb_worker_cancel(studies->job);
   }
 }
 
