@@ -163,13 +163,6 @@ static double along(const double v[3], double z, double r, double angle) {
   return v[0] * z + r * (v[1] * cos(angle) + v[2] * sin(angle));
 }
 
-void sb_revolve_place(const SbRevolve *revolve, double z, double r, double angle, double out[3]) {
-  const SbOrbit *orbit = &revolve->orbit;
-  out[0] = revolve->x0 + revolve->scale * along(orbit->right, z, r, angle);
-  out[1] = revolve->y0 - revolve->scale * along(orbit->up, z, r, angle);
-  out[2] = along(orbit->toward, z, r, angle);
-}
-
 // Returns whether a cut face, 0 or 1, faces the camera.
 static bool face_shows(const SbRevolve *revolve, int face) {
   // Its normal points into the open quarter.

@@ -98,9 +98,5 @@ void sb_revolve_build(SbRevolve *revolve);
 // Returns the angle of a cut face, 0 or 1 [rad].
 double sb_revolve_face_angle(int face);
 
-// Writes the position of the point (z, r) [m] at `angle` [rad]: out[0], out[1] in the picture [px],
-// and out[2] towards the camera [m].
-void sb_revolve_place(const SbRevolve *revolve, double z, double r, double angle, double out[3]);
-
 // Returns the volume that the surface cells of a body enclose with its cut faces [m3], for tests.
 double sb_revolve_volume(const SbRevolve *revolve, SbRevolveBody solid);

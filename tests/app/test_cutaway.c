@@ -120,14 +120,27 @@ static bool inside(const Outline *o, double z, double r) {
   return in;
 }
 
+// Component of (z, r at the angle) along a vector.
+static double along(const double v[3], double z, double r, double angle) {
+  return v[0] * z + r * (v[1] * cos(angle) + v[2] * sin(angle));
+}
+
+// The point (z, r) [m] at `angle`: its pixel, and its nearness to the camera [m].
+static void place_at(const SbRevolve *revolve, double z, double r, double angle, double out[3]) {
+  const SbOrbit *orbit = &revolve->orbit;
+  out[0] = revolve->x0 + revolve->scale * along(orbit->right, z, r, angle);
+  out[1] = revolve->y0 - revolve->scale * along(orbit->up, z, r, angle);
+  out[2] = along(orbit->toward, z, r, angle);
+}
+
 // Nearness of a cut face where a body is cut at the pixel.
 static double face_at(const SbRevolve *revolve, const Outline *outline, int face, double x,
                       double y) {
   double o[3], ez[3], er[3];
   double angle = sb_revolve_face_angle(face);
-  sb_revolve_place(revolve, 0, 0, angle, o);
-  sb_revolve_place(revolve, 1, 0, angle, ez);
-  sb_revolve_place(revolve, 0, 1, angle, er);
+  place_at(revolve, 0, 0, angle, o);
+  place_at(revolve, 1, 0, angle, ez);
+  place_at(revolve, 0, 1, angle, er);
   for (int i = 0; i < 3; i++) {
     ez[i] -= o[i];
     er[i] -= o[i];
