@@ -31,8 +31,9 @@ void sb_section_handles_listen(SbSectionHandles *handles, SbSectionChosen chosen
 void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *section,
                                const SbModel *model, const SbFrame *frame, SbPoint corner);
 
-// To be called when the primary button is pressed at (x, y) of the picture.gboolean
-// sb_section_handles_press(SbSectionHandles *handles, double x, double y);
+// To be called when the primary button is pressed at (x, y) of the picture [px]. Returns whether it
+// took a handle.
+gboolean sb_section_handles_press(SbSectionHandles *handles, double x, double y);
 
 // The pointer moved to (x, y); `state` are the modifiers (GdkModifierType). Edits the value while a
 // handle is dragged.
