@@ -206,16 +206,16 @@ static void test_error(void) {
   less.asperity_share *= 1 - error;
   const double share = fabs(time_of(&model, &more) - time_of(&model, &less)) / 2;
   state.share_error = error;
-  assert_close(error_of(&model, &state), share, 1e-6);
+  assert_close(error_of(&model, &state), share / time, 1e-6);
   g_test_message("%.4g s, %.3g for a share off by %.2g", time, share / time, error);
   g_assert_cmpfloat(share, >, 2 * error * time);
   // Those of load and width are part of the share's, and are added by themselves.
   state.share_error = error + 0.004;
   state.net_error = 0.003;
   state.width_error = 0.001;
-  g_assert_cmpfloat(error_of(&model, &state), >, share);
+  g_assert_cmpfloat(error_of(&model, &state), >, share / time);
   state.share_error = 0.004;
-  g_assert_cmpfloat(error_of(&model, &state), <, 0.03 * time);
+  g_assert_cmpfloat(error_of(&model, &state), <, 0.03);
   sb_run_destroy(run);
 }
 

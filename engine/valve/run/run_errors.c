@@ -185,7 +185,8 @@ static double turn_error(const SbRun *run, int seal, const SbSealState *state, d
   return (state->load_error + state->width_error) * (5 * fabs(value) + strain * 180 / M_PI);
 }
 
-// Absolute error of the time of the squeeze-out [s]. Film and asperities depend on the speed, too.
+// Relative error of the time of the squeeze-out, which is that of the solved speed: the displayed
+// state has nearly the same relative errors. Film and asperities depend on the speed, too.
 static double squeeze_error(const SbRun *run, int seal, const SbSealState *state, double speed) {
   SbSealState off = *state;
   off.central_error = positive(state->central_error) + speed;
@@ -221,7 +222,7 @@ static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
   case SB_BY_STATIC:
     return state->static_error;
   case SB_BY_SQUEEZE_OUT:
-    return squeeze_error(run, seal, state, speed);
+    return fabs(value) * squeeze_error(run, seal, state, speed);
   case SB_BY_COEFFICIENT:
     return fabs(value) * (state->load_error + state->friction_error / fmax(friction, 1e-300));
   default:

@@ -83,7 +83,7 @@ typedef enum { OFF_FILM, OFF_SHARE, OFF_LOAD, OFF_WIDTH, OFF_COUNT } Off;
 
 static SbSealState off_by(const SbSealState *state, Off part, double times) {
   SbSealState out = *state;
-  if (part == OFF_FILM) { // on the same surface
+  if (part == OFF_FILM) {                                                     // on the same surface
     const double error = state->central_error > 0 ? state->central_error : 0; // NaN: exact
     const double to = fmax(1 + times * error, 0.01);
     out.film_central *= to;
@@ -122,6 +122,7 @@ SbStatus sb_breakaway_squeeze_error(double *out, const SbModel *model, int seal,
     }
     *out += fabs(end[1] - end[0]) / 2;
   }
+  *out = contact.squeeze_time > 0 ? *out / contact.squeeze_time : 0;
   free(law);
   return status;
 }

@@ -37,7 +37,7 @@
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report);
 
-// Computes *out, the absolute error [s] of the time that sb_breakaway_law() writes to
+// Computes *out, the relative error [1] of the time that sb_breakaway_law() writes to
 // *squeeze_time: the sum of half its changes between both signs of the errors of film, asperities'
 // fraction of the load, net load, and contact width (central_error, share_error, net_error,
 // width_error of `state`). The time depends steeply on them where the film is hardly thicker than

@@ -236,7 +236,7 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
-// Returns the absolute error of squeeze_out_time [s] of a state of the task's seal
+// Returns the relative error of squeeze_out_time [1] of a state of the task's seal
 // (sb_breakaway_squeeze_error()); NaN: no memory.
 double sb_sliding_squeeze_error(const SbSealState *state, const SbSlidingTask *task);
 
