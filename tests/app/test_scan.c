@@ -271,6 +271,41 @@ static void test_matrix(void) {
   g_string_free(text, TRUE);
 }
 
+static void test_sdf(void) {
+  SbHeights h = written();
+  h.dx = 0.5e-6;
+  h.dy = 2e-6;
+  static const char *const format =
+      "aISO-1.0\r\nManufacID   = bench 3\r\nNumPoints   = 20\r\nNumProfiles = 17\r\n"
+      "Xscale      = 5e-07\r\nYscale      = 2e-06\r\nZscale      = 1e-9\r\nZresolution = -1\r\n"
+      "Compression = 0\r\nDataType    = 7\r\nCheckType   = 0\r\n*\r\n";
+  GString *text = matrix(format, "\r\n", '.', "BAD");
+  g_string_append(text, "*\r\n");
+  assert_text(text, &plain, &h);
+  assert_refused(text->str, text->len - 40, &plain, "is cut short");
+  g_string_free(text, TRUE);
+  // Binary, 32-bit integers.
+  GByteArray *bytes = g_byte_array_new();
+  guint8 head[81] = "bISO-1.0";
+  const guint16 size[2] = {GUINT16_TO_LE(COLUMNS), GUINT16_TO_LE(ROWS)};
+  const double scale[4] = {0.5e-6, 2e-6, 1e-9, -1};
+  memcpy(head + 42, size, 4);
+  memcpy(head + 46, scale, 32);
+  head[79] = 6;
+  g_byte_array_append(bytes, head, sizeof head);
+  for (int i = 0; i < COLUMNS * ROWS; i++) {
+    const gint32 value = isnan(height[i]) ? G_MININT32 : (gint32)lround(1e9 * height[i]);
+    const gint32 little = GINT32_TO_LE(value);
+    g_byte_array_append(bytes, (const guint8 *)&little, 4);
+  }
+  SbScan scan;
+  parse(&scan, bytes, &plain);
+  assert_same(&scan, &h, 1e-20);
+  sb_scan_clear(&scan);
+  assert_cut_refused(bytes);
+  g_byte_array_unref(bytes);
+}
+
 // Headers in other languages, with a factor of heights, with decimal commas; `--unit` replaces the
 // factor and its unit, which a note states.
 static void test_headers(void) {
@@ -433,6 +468,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/scan/sur", test_sur);
   g_test_add_func("/scan/x3p", test_x3p);
   g_test_add_func("/scan/matrix", test_matrix);
+  g_test_add_func("/scan/sdf", test_sdf);
   g_test_add_func("/scan/headers", test_headers);
   g_test_add_func("/scan/points", test_points);
   g_test_add_func("/scan/profile", test_profile);

@@ -61,10 +61,10 @@ gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScan
   static const struct {
     const char *start;
     SbScanReader *read;
-  } formats[] = {{"GWYP", sb_scan_parse_gwy},
-                 {"DIGITAL SURF", sb_scan_parse_sur},
-                 {"PK\x03\x04", sb_scan_parse_x3p},
-                 {"", sb_scan_parse_text}};
+  } formats[] = {{"GWYP", sb_scan_parse_gwy},       {"DIGITAL SURF", sb_scan_parse_sur},
+                 {"PK\x03\x04", sb_scan_parse_x3p}, {"aISO-1.0", sb_scan_parse_sdf},
+                 {"aBCR-1.0", sb_scan_parse_sdf},   {"bISO-1.0", sb_scan_parse_sdf},
+                 {"bBCR-1.0", sb_scan_parse_sdf},   {"", sb_scan_parse_text}};
   *out = (SbScan){.notes = g_ptr_array_new_with_free_func(g_free)};
   gsize format = 0;
   for (gsize skip; skip = strlen(formats[format].start),

@@ -5,6 +5,7 @@
 //   .gwy   Gwyddion's container (gwyddion.net, "Format of Gwyddion Files"); masked points are
 //          missing points.
 //   .sur   Digital Surf's surface and profile, format 2.00, 16 or 32 bits.
+//   .sdf   ISO 25178-71 (and BCR), text or binary.
 //   .x3p   ISO 25178-72 (ISO 5436-2): a zip of main.xml and binary data; only if the build found
 //          libzip.
 //

@@ -23,6 +23,7 @@ SbScanReader sb_scan_parse_text;
 SbScanReader sb_scan_parse_gwy;
 SbScanReader sb_scan_parse_sur;
 SbScanReader sb_scan_parse_x3p;
+SbScanReader sb_scan_parse_sdf;
 
 // Sets SB_APP_ERROR_INPUT with "NAME: " and the formatted text. Always returns FALSE.
 gboolean sb_scan_fail(GError **error, const char *name, const char *format, ...)
