@@ -8,7 +8,7 @@
 #include <string.h>
 
 // Comparing each end with each: a layer of more pieces is no seal's part.
-enum { PIECES_MAX = 5000 };
+enum { PIECES_MAX = 5000, NEAR_MAX = 1000000 };
 
 // Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
 // a circle from the next one that continues it, and of a line from points on it [m].
@@ -30,14 +30,14 @@ static double length_of(const SbCadPiece *piece) {
 static int next_piece(SbCadPiece *out, const GArray *pieces, const bool *used, double x, double y,
                       double gap) {
   int best = -1;
-  double nearest = gap;
+  double nearest = gap * gap;
   for (guint i = 0; i < pieces->len; i++) {
     if (used[i]) {
       continue;
     }
     const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    const double first = hypot(piece->x0 - x, piece->y0 - y);
-    const double last = hypot(piece->x1 - x, piece->y1 - y);
+    const double dx0 = piece->x0 - x, dy0 = piece->y0 - y, first = dx0 * dx0 + dy0 * dy0;
+    const double dx1 = piece->x1 - x, dy1 = piece->y1 - y, last = dx1 * dx1 + dy1 * dy1;
     if (fmin(first, last) <= nearest) {
       nearest = fmin(first, last);
       best = (int)i;
@@ -94,11 +94,6 @@ static void point_of(const SbCadPiece *piece, double part, double at[2]) {
   }
 }
 
-// Middle of a piece.
-static void middle_of(const SbCadPiece *piece, double at[2]) {
-  point_of(piece, 0.5, at);
-}
-
 // Returns the place of a point on the line or circle of a piece as a fraction of its length; not a
 // number if the point is farther than `same` from it.
 static double place_on(const SbCadPiece *piece, double x, double y, double same) {
@@ -117,74 +112,93 @@ static double place_on(const SbCadPiece *piece, double x, double y, double same)
   return fabs(off) <= same ? ((x - piece->x0) * dx + (y - piece->y0) * dy) / (chord * chord) : NAN;
 }
 
+// A piece with the circle about its middle in which it is.
+typedef struct {
+  SbCadPiece piece;
+  double middle[2], reach;
+} Drawn;
+
+static Drawn drawn_of(const SbCadPiece piece) {
+  Drawn drawn = {.piece = piece, .reach = length_of(&piece) / 2};
+  point_of(&piece, 0.5, drawn.middle);
+  return drawn;
+}
+
 // Writes to `place` where the ends of `other` are on `piece`, if both are of one line or circle.
-static bool overlaps(const SbCadPiece *piece, const SbCadPiece *other, double same,
-                     double place[2]) {
-  double middle[2];
-  middle_of(other, middle);
-  place[0] = place_on(piece, other->x0, other->y0, same);
-  if (isnan(place[0])) {
+static bool overlaps(const SbCadPiece *piece, const Drawn *other, double same, double place[2]) {
+  const SbCadPiece *ends = &other->piece;
+  place[0] = place_on(piece, ends->x0, ends->y0, same);
+  if (isnan(place[0]) || other->reach <= 2 * same) {
     return false;
   }
-  place[1] = place_on(piece, other->x1, other->y1, same);
-  return !isnan(place[1]) && !isnan(place_on(piece, middle[0], middle[1], same)) &&
-         length_of(other) > 4 * same;
+  place[1] = place_on(piece, ends->x1, ends->y1, same);
+  return !isnan(place[1]) && !isnan(place_on(piece, other->middle[0], other->middle[1], same));
 }
 
-// Divides pieces at the ends of others that run along them, so that lines that were drawn twice,
-// also in part, become equal pieces.
-static void divide_overlaps(GArray *pieces, double same) {
+// Divides a piece of `all` (of Drawn) at an end of another that runs along it: the remainder is
+// appended. Returns whether there is one.
+static bool divide(GArray *all, guint index, const Drawn *other, double same) {
+  const SbCadPiece whole = g_array_index(all, Drawn, index).piece;
+  const double length = 2 * g_array_index(all, Drawn, index).reach, quarter = atan(whole.bulge);
+  double place[2];
+  const bool along = overlaps(&whole, other, same, place);
+  for (int end = 0; along && end < 2; end++) {
+    const double part = place[end];
+    if (part * length > same && (1 - part) * length > same) {
+      const double x = end == 0 ? other->piece.x0 : other->piece.x1;
+      const double y = end == 0 ? other->piece.y0 : other->piece.y1;
+      const Drawn rest =
+          drawn_of((SbCadPiece){x, y, whole.x1, whole.y1, tan((1 - part) * quarter)});
+      g_array_index(all, Drawn, index) =
+          drawn_of((SbCadPiece){whole.x0, whole.y0, x, y, tan(part * quarter)});
+      g_array_append_val(all, rest);
+      return true;
+    }
+  }
+  return false;
+}
+
+// Returns whether two pieces are one, in any direction.
+static bool is_same(const Drawn *a, const Drawn *b, double same) {
+  const SbCadPiece *p = &a->piece, *q = &b->piece;
+  const double along =
+      fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
+  const double back =
+      fmax(hypot(p->x0 - q->x1, p->y0 - q->y1), hypot(p->x1 - q->x0, p->y1 - q->y0));
+  return hypot(a->middle[0] - b->middle[0], a->middle[1] - b->middle[1]) <= same &&
+         fmin(along, back) <= same;
+}
+
+// Returns the pieces without those of no length and those drawn twice, also in part, and counts the
+// latter. Of more than NEAR_MAX pairs of pieces that are close together, the first are compared.
+static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
+  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(Drawn));
+  GArray *out = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   for (guint i = 0; i < pieces->len; i++) {
-    for (guint k = 0; k < pieces->len; k++) {
-      SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-      const SbCadPiece other = g_array_index(pieces, SbCadPiece, k);
-      double place[2];
-      if (i == k || !overlaps(piece, &other, same, place)) {
+    const Drawn drawn = drawn_of(g_array_index(pieces, SbCadPiece, i));
+    if (2 * drawn.reach > SHORT) {
+      g_array_append_val(all, drawn);
+    }
+  }
+  guint near = 0;
+  for (guint i = 0; i < all->len; i++) {
+    bool single = true;
+    for (guint k = 0; single && near < NEAR_MAX && k < all->len; k++) {
+      const Drawn *piece = &g_array_index(all, Drawn, i), other = g_array_index(all, Drawn, k);
+      const double x = piece->middle[0] - other.middle[0], y = piece->middle[1] - other.middle[1];
+      const double reach = piece->reach + other.reach + same;
+      if (i == k || x * x + y * y > reach * reach) {
         continue;
       }
-      for (int end = 0; end < 2; end++) {
-        const double part = place[end], length = length_of(piece);
-        if (part * length > same && (1 - part) * length > same && pieces->len < 2 * PIECES_MAX) {
-          const double x = end == 0 ? other.x0 : other.x1, y = end == 0 ? other.y0 : other.y1;
-          const double quarter = atan(piece->bulge);
-          const SbCadPiece rest = {x, y, piece->x1, piece->y1, tan((1 - part) * quarter)};
-          *piece = (SbCadPiece){piece->x0, piece->y0, x, y, tan(part * quarter)};
-          g_array_append_val(pieces, rest);
-          k--; // the other end; the remainder is examined in its turn
-          break;
-        }
+      near++;
+      if (all->len < PIECES_MAX && divide(all, i, &other, same)) {
+        k--; // its other end
+      } else {
+        single = k > i || !is_same(piece, &other, same);
       }
     }
-  }
-}
-
-// Returns the pieces without those of no length and those drawn twice, and counts the latter.
-static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  for (guint i = 0; i < pieces->len; i++) {
-    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    if (length_of(piece) > SHORT) {
-      g_array_append_val(all, *piece);
-    }
-  }
-  divide_overlaps(all, same);
-  GArray *out = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  for (guint i = 0; i < all->len; i++) {
-    const SbCadPiece *piece = &g_array_index(all, SbCadPiece, i);
-    double at[2], middle[2];
-    middle_of(piece, middle);
-    bool new = true;
-    for (guint k = 0; new &&k < out->len; k++) {
-      const SbCadPiece *one = &g_array_index(out, SbCadPiece, k);
-      middle_of(one, at);
-      const bool along = hypot(one->x0 - piece->x0, one->y0 - piece->y0) <= same &&
-                         hypot(one->x1 - piece->x1, one->y1 - piece->y1) <= same;
-      const bool against = hypot(one->x0 - piece->x1, one->y0 - piece->y1) <= same &&
-                           hypot(one->x1 - piece->x0, one->y1 - piece->y0) <= same;
-      new = !((along || against) && hypot(at[0] - middle[0], at[1] - middle[1]) <= same);
-    }
-    if (new) {
-      g_array_append_val(out, *piece);
+    if (single) {
+      g_array_append_val(out, g_array_index(all, Drawn, i).piece);
     }
   }
   *doubled = all->len - out->len;
@@ -365,7 +379,7 @@ static void find_extent(Outline *outline) {
   for (guint i = 0; i < outline->chain->len; i++) {
     const SbCadPiece *piece = &g_array_index(outline->chain, SbCadPiece, i);
     double middle[2]; // of the arc, which is enough to find the side
-    middle_of(piece, middle);
+    point_of(piece, 0.5, middle);
     outline->low = fmin(outline->low, fmin(fmin(piece->y0, piece->y1), middle[1]));
     outline->high = fmax(outline->high, fmax(fmax(piece->y0, piece->y1), middle[1]));
   }
@@ -377,17 +391,19 @@ static void note_open(SbCad *cad, const char *name, const GArray *ends) {
   typedef double Point[2];
   const Point *at = (const Point *)(void *)ends->data;
   const guint count = ends->len;
-  double largest = 0;
+  double largest = 0; // squared
   for (guint i = 0; i < count; i++) {
     double nearest = INFINITY;
     for (guint k = 0; k < count; k++) {
-      nearest = k != i ? fmin(nearest, hypot(at[i][0] - at[k][0], at[i][1] - at[k][1])) : nearest;
+      const double dx = at[i][0] - at[k][0], dy = at[i][1] - at[k][1], off = dx * dx + dy * dy;
+      nearest = k != i && off < nearest ? off : nearest;
     }
     largest = fmax(largest, nearest);
   }
   char gap[SB_NUMBER_SIZE];
   sb_cad_note(cad, "%s: %u line%s to no outline: ends are up to %s mm apart", name, count / 2,
-              count > 2 ? "s that close" : " that closes", sb_number_round(gap, 1e3 * largest, 3));
+              count > 2 ? "s that close" : " that closes",
+              sb_number_round(gap, 1e3 * sqrt(largest), 3));
 }
 
 // Finds the closed outlines, and the open ones that end on the axis.
