@@ -307,8 +307,9 @@ int sb_command_surface(int argc, char **argv) {
       {0},
   };
   int code = SB_EXIT_INPUT;
-  if (sb_cli_parse(&argc, &argv, entries, 1, 1,
-                   "A scan is a text of heights (matrix, x z or x y z), .gwy, .sur or .x3p.")) {
+  if (sb_cli_parse(
+          &argc, &argv, entries, 1, 1,
+          "A scan is a text of heights (matrix, x z or x y z), .gwy, .sur, .sdf or .x3p.")) {
     code = read_options(&options);
     if (code == SB_EXIT_DONE) {
       g_autofree char *path = sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_IMPORT);

@@ -63,6 +63,19 @@ static const char *choice_text(const Dialog *dialog, int i) {
                               : gtk_combo_box_get_active_id(GTK_COMBO_BOX(widget));
 }
 
+// Shows why a file is not read. Options of the command line are named as the rows of the form.
+static void show_problem(Dialog *dialog, const char *why) {
+  g_autofree char *text = g_strdup(why != NULL ? why : "");
+  for (const Row *row = dialog->kind->row; row->key != NULL; row++) {
+    g_autofree char *option = g_strconcat("--", row->key, NULL);
+    g_autofree char *label = g_strdup_printf("\"%s\"", _(row->label));
+    g_auto(GStrv) parts = g_strsplit(text, option, -1);
+    g_free(text);
+    text = g_strjoinv(label, parts);
+  }
+  gtk_label_set_text(GTK_LABEL(dialog->message), text);
+}
+
 static void set_choice(Dialog *dialog, int i, const char *text) {
   GtkWidget *widget = dialog->choice[i];
   dialog->filling = TRUE;
@@ -191,7 +204,7 @@ static char *take_measured(Dialog *dialog) {
   SbMeasured *measured = sb_measure_job_take(dialog->measuring, &why);
   forget_measured(dialog);
   if (measured == NULL) {
-    gtk_label_set_text(GTK_LABEL(dialog->message), why);
+    show_problem(dialog, why);
     return NULL;
   }
   // Beside the displayed run, as it will stand on the page.
@@ -266,14 +279,14 @@ static char *take_scan(Dialog *dialog) {
   const char *why = NULL;
   dialog->surface = sb_read_job_result(dialog->reading, &why);
   if (dialog->surface == NULL) {
-    gtk_label_set_text(GTK_LABEL(dialog->message), why);
+    show_problem(dialog, why);
     return NULL;
   }
   const char *reason = NULL;
   g_autofree char *choices = sb_surface_choices_text(dialog->surface);
   g_auto(GStrv) settings = sb_surface_settings(&reason, dialog->surface);
   if (settings == NULL) {
-    gtk_label_set_text(GTK_LABEL(dialog->message), reason);
+    show_problem(dialog, reason);
     return NULL;
   }
   if (!dialog->said[0]) {
@@ -354,7 +367,7 @@ static char *drawn_scene(Dialog *dialog, const char *path, char **differences) {
                             drawn->path, path, issues);
   if (text == NULL) {
     g_autofree char *line = sb_issue_line(issues->pdata[0]);
-    gtk_label_set_text(GTK_LABEL(dialog->message), line);
+    show_problem(dialog, line);
     return NULL;
   }
   *differences = sb_cad_differences(document, after);
@@ -365,7 +378,7 @@ static char *take_drawing(Dialog *dialog) {
   const char *why = NULL;
   dialog->drawn = sb_read_job_result(dialog->reading, &why);
   if (dialog->drawn == NULL) {
-    gtk_label_set_text(GTK_LABEL(dialog->message), why);
+    show_problem(dialog, why);
     return NULL;
   }
   const SbCad *cad = dialog->drawn->cad;
@@ -432,7 +445,7 @@ static bool use_drawing(Dialog *dialog) {
     g_autoptr(GError) error = NULL;
     written = text != NULL && sb_output_write(path, text, strlen(text), &error);
     if (error != NULL) {
-      gtk_label_set_text(GTK_LABEL(dialog->message), error->message);
+      show_problem(dialog, error->message);
     }
     if (written) {
       g_autoptr(GFile) file = g_file_new_for_path(path);
