@@ -379,8 +379,8 @@ def one(campaign, habit, number):
 
 
 def run(campaign, seconds):
-    """All habits once, then again until `seconds` of the campaign are left."""
+    """All habits once, then again until `seconds` of the campaign are left; in full 60 times."""
     number = 0
-    while number < len(HABITS) or (campaign.left() > seconds and number < 60 * len(HABITS)):
+    while number < len(HABITS) or ((campaign.full or campaign.left() > seconds) and number < 60 * len(HABITS)):
         one(campaign, HABITS[number % len(HABITS)], number)
         number += 1
