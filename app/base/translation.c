@@ -1,6 +1,6 @@
 // Texts of the lower layers in the user's language. xgettext reads them where they are
-// (po/meson.build): the engine marks them (engine/base/label.h), its catalogues have macros of their
-// own.
+// (po/meson.build): the engine marks them (engine/base/label.h), its catalogues have macros of
+// their own.
 #include "app/base/translation.h"
 
 #include <glib/gi18n.h>

@@ -1,7 +1,6 @@
 // See the header.
 #include "app/draw/legend.h"
 
-
 #include <glib/gi18n.h>
 #include <math.h>
 
@@ -18,6 +17,5 @@ double sb_legend_line(SbCanvas *c, double right, double y, double room, SbStroke
 
 double sb_legend_predicted(SbCanvas *c, double right, double y) {
   return sb_legend_line(c, right, y, INFINITY,
-                        (SbStroke){SB_ROLE_INK, SB_LINE_SEAL, &sb_dash_predicted},
-                        _("predicted"));
+                        (SbStroke){SB_ROLE_INK, SB_LINE_SEAL, &sb_dash_predicted}, _("predicted"));
 }

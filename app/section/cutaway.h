@@ -17,4 +17,3 @@ void sb_cutaway_destroy(SbCutaway *cutaway);
 // Adds the cutaway at the section's present instant to the section's display list, with the camera
 // of its view. Called by sb_section_draw(), after it has set the shapes of the rings.
 void sb_cutaway_draw(SbCutaway *cutaway, SbSection *section);
-

@@ -95,9 +95,9 @@ typedef struct {
   double friction_error;
   double static_error;
   // Only of a solved ring that slides, else NaN: fraction of tau_0 A_a and of viscous friction that
-  // the contact pressure can transmit [1]; fraction of the friction that the section carries without
-  // rolling [1];
-  // rotation of the section [degrees], > 0 in the sense in which friction turns it.
+  // the contact pressure can transmit [1]; fraction of the friction that the section carries
+  // without rolling [1]; rotation of the section [degrees], > 0 in the sense in which friction
+  // turns it.
   double area_cut, borne_share, rotation;
   SbRingState section; // state of a solved ring (contact/ring/ring.h); else SB_RING_SLIDES
   // Only of a gasket: contact pressure above the lower fluid pressure [Pa] at x = middle - half
