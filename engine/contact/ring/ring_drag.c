@@ -14,6 +14,12 @@
 // nodes that stick or are released change m by less. A ring whose load grows to JAM times the load
 // without friction is wedged: it jams. As the contact moves around the section, the mesh is fitted
 // again at the same rotation.
+//
+// The state without friction can be unstable: a slender section that is squeezed stays upright by
+// symmetry, and Newton's method finds this equilibrium too. Then no state of the path is close to
+// it. The first drag tips such a section. The viscous motion of ring_path.c leads to a stable state
+// at a small friction, where the path begins. Not modelled: a path that leads the upright section
+// in an unstable state to a friction at which it is stable again.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>
@@ -161,6 +167,14 @@ static SbStatus settle_at(SbRing *ring, double aim, SbReport *report) {
   return status;
 }
 
+// Moves a ring from its state without friction to the state at the friction `share` that its
+// viscous motion reaches. An easy path ends instead.
+static SbStatus tip(SbRing *ring, double share, SbReport *report) {
+  SbRingLoad dragged = ring->contact->is.now;
+  dragged.friction_bore = share;
+  return sb_ring_advance(ring, &dragged, SB_RING_FOLLOW, report);
+}
+
 static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0, most_turn = 0.0, level = 0.0,
          level_turn = 0.0;
@@ -169,6 +183,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double anchor[2] = {fitted, unit * ring->contact->is.now.friction_bore};
   int meshes = 0, first = ring->count.iterations; // meshes tried since the last step
   bool crossed = false;                           // the ring was moved to the wall
+  bool begun = ring->easy; // the path has a first state with friction, or may not be tipped
   ring->state = SB_RING_SLIDES;
   ring->passing = true;
   while (ring->contact->is.now.friction_bore < aim) {
@@ -203,6 +218,20 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       if (length < ARC_LEAST || spent) {
         // A path that stops at single nodes of one mesh continues on another.
         refit = ++meshes <= MESHES && !spent;
+        if (!refit && !spent && !begun) {
+          begun = true;
+          status = tip(ring, fmin(aim, ARC / unit), report);
+          most_turn = level_turn = anchor[0] = is->turn; // the path begins here
+          anchor[1] = unit * is->now.friction_bore;
+          if (status == SB_OK) {
+            meshes = 0;
+            length = ARC;
+            continue;
+          }
+          if (status != SB_ERROR_NOT_CONVERGED) {
+            return status;
+          }
+        }
         if (!refit && fabs(is->turn - level_turn) > FLAT_TURN) {
           return end_at_limit(ring, SB_RING_ROLLS, most, limit);
         }
@@ -214,6 +243,7 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
     } else if (status == SB_OK) {
       ring->count.steps++;
       meshes = 0;
+      begun = true;
       double load = bore_load(ring->contact, &drag, &now);
       if (is->now.friction_bore > most) {
         most = is->now.friction_bore;
