@@ -332,9 +332,9 @@ static bool print_edges(int face) {
     gmshFree(low);
     gmshFree(high);
   }
-  static guint told;
-  told += pieces->len;
-  good = good && told <= PIECES_MAX;
+  static guint written;
+  written += pieces->len;
+  good = good && written <= PIECES_MAX;
   for (guint i = 0; good && i < pieces->len; i++) {
     const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
     fprintf(out, "piece %.17g %.17g %.17g %.17g %.17g\n", p->x0, p->y0, p->x1, p->y1, p->bulge);

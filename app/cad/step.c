@@ -191,9 +191,9 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error) {
   GError *problem = NULL;
-  g_autofree char *told = run_helper(path, choices, &problem);
-  SbCad *cad = told != NULL ? sb_cad_new("STEP") : NULL;
-  if (cad != NULL && !take_text(cad, told, &problem)) {
+  g_autofree char *report = run_helper(path, choices, &problem);
+  SbCad *cad = report != NULL ? sb_cad_new("STEP") : NULL;
+  if (cad != NULL && !take_text(cad, report, &problem)) {
     g_clear_pointer(&cad, sb_cad_free);
   }
   if (cad != NULL) {

@@ -73,7 +73,7 @@ static void fluid_label(SbProfileChart *s, double from, double to, double pressu
   sb_labels_put(s->labels, s->canvas, text, &style, places, 3);
 }
 
-// What both sides share is not in the curve: it lies on everything, and is told in words.
+// The curve leaves out the fluid pressure that both sides share; a label states it.
 static void common_label(SbProfileChart *s) {
   const SbSealFrame *seal = s->seal;
   double common = seal ? fmin((double)seal->pressure_left, (double)seal->pressure_right) : 0;

@@ -263,7 +263,7 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
     return;
   }
   const double wide = hi - lo;
-  // A limit far away stays out of sight: its side is told by the share beyond it.
+  // A limit far away stays out of sight: the fraction beyond it states its side.
   lo = isfinite(limit.low) && limit.low > lo - 2 * wide ? fmin(lo, limit.low) : lo;
   hi = isfinite(limit.high) && limit.high < hi + 2 * wide ? fmax(hi, limit.high) : hi;
   sb_axis_repair(&lo, &hi);

@@ -1,5 +1,5 @@
-// Tables of what people read of a run: text for a terminal and pages of a report. `run` has ended.
-// All tables are freed by sb_table_free().
+// Tables of the results of a run, for the text of a terminal and the pages of a report. `run` has
+// ended. All tables are freed by sb_table_free().
 #pragma once
 
 #include "app/data/compare.h"

@@ -22,7 +22,7 @@ typedef struct {
   int seal;
   bool gasket;
   SbColor color;       // of the seal
-  const SbColor *body; // of what slides over it: housing, or stem below a gasket
+  const SbColor *body; // of the sliding part: housing, or stem below a gasket
   const SbSealFrame *frame;
   const SbContactProfile *profile; // NULL: none
   bool contact;                    // the seal is in contact with the bore
@@ -150,9 +150,9 @@ static void draw_parts(const Inset *in) {
 }
 
 // Draws the pressure from the line of the contact into what slides: the housing above rings, the
-// stem below gaskets. Writes the ends of what is drawn, which includes the contact, to end[2] [px].
-// Where the pressure outside of the contact is the fluid's it is left to draw_fluid_pressure(); a
-// film's inlet belongs to the seal.
+// stem below gaskets. Writes the left and right end of the drawn part, which includes the contact,
+// to end[2] [px]. Where the pressure outside of the contact is the fluid's it is left to
+// draw_fluid_pressure(); a film's inlet belongs to the seal.
 static void draw_pressure_curve(const Inset *in, double *end) {
   if (in->profile == NULL || in->profile->count < 2) {
     return;

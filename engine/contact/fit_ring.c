@@ -132,7 +132,7 @@ static const Floor PATH = {0.004, 0.002, 0.002}, DRY = {4e-4, 3e-4, 1.3e-3};
 // to 0.19 %, and its peak by up to 6.2 % (gasket.scene and gasket-hand.scene, 0.97 to 1.03 mm
 // thick, campaign estimates). The peak is at the sharp edge of the contact, where the pressure of
 // the finite elements has a root, and depends on single nodes, although the peaks of two meshes may
-// agree.
+// agree. Estimates are a third of these changes, rounded up.
 static const Floor GASKET = {0.002, 0.021, 0.001};
 
 // Load that such a ring's mesh aims at, and is wanted to.

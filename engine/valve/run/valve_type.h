@@ -1,5 +1,6 @@
 // How the stem of a valve opens and closes the dose chamber: one row for each kind of valve
-// (valve.kind). The code of this room reads the row and does not compare the kind.
+// (valve.kind). Motion, dose and supply read the row. Plan, profiles and shapes still compare the
+// kind where a gasket's film or section differs from a ring's.
 //
 // Pure functions of their arguments, for any thread. s is the stem's displacement [m]; a direction
 // is SB_CYCLE_IN or SB_CYCLE_OUT.

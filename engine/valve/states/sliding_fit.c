@@ -436,7 +436,8 @@ static Round round_of(double friction, const SbFit *fit) {
 // Without a second round: the section leans on the wall by its friction. Solved rings change their
 // load by 0.7 to 0.9 N per newton (ring-cycle, d-ring), and width and peak by less than that.
 static SbSlidingPull usual_pull(const SbFit *fit) {
-  return (SbSlidingPull){1 / fit->load, 1 / fit->load, 1 / fit->load};
+  const double per_newton = 1 / fmax(fit->load, 1e-300); // without load there is no friction either
+  return (SbSlidingPull){per_newton, per_newton, per_newton};
 }
 
 // Sets *out from two rounds: the slope of their secant. Without fluid (`even`) the opposite
