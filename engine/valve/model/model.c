@@ -154,10 +154,28 @@ const SbGrooveDrawing *sb_model_groove(const SbModel *model) {
   return drawn && model->kind != SB_VALVE_GASKET ? &model->data->groove : NULL;
 }
 
+// Refuses a ring that its groove squeezes or stretches beyond every model. Beyond 60 % squeeze no
+// model is meaningful; the fit models warn much earlier.
+static void check_fit(const SbModel *model, int index, SbProblems *problems) {
+  const SbSealModel *seal = &model->seal[index];
+  const bool outer = index == SB_OUTER;
+  const double g = model->radial_space, floor = model->bore_diameter - 2 * g;
+  if (seal->squeeze > 0.6) {
+    sb_model_refuse(problems, outer ? "seal.outer.section_diameter" : "seal.inner.section_diameter",
+                    NAN, g / 0.4, "squeezes the %s seal by %.0f %%, more than 60 %%",
+                    sb_seal_name(index), 100 * seal->squeeze);
+  }
+  if (seal->stretch_inner > 1) {
+    sb_model_refuse(problems, outer ? "seal.outer.inner_diameter" : "seal.inner.inner_diameter",
+                    floor / 2, NAN,
+                    "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
+                    sb_seal_name(index), 100 * seal->stretch_inner);
+  }
+}
+
 // Works out a seal from its `stored` ring, its Poisson's ratio and the gland.
 static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   SbSealModel *seal = &model->seal[index];
-  bool outer = index == SB_OUTER;
   seal->stored.storage_time = model->storage_time;
   seal->stored.temperature = model->storage_temperature;
   seal->stored.use_temperature = model->temperature;
@@ -203,19 +221,7 @@ static void compile_seal(SbModel *model, int index, SbProblems *problems) {
   const double groove = sb_groove_area(g, model->axial_width, model->groove_draft,
                                        model->groove_corner, sb_model_groove(model));
   seal->gland_fill = area * d * d / groove * (mean_free + 2 * centroid * d) / mean_fitted;
-
-  // Beyond 60 % no model here means anything; the fit models warn long before.
-  if (seal->squeeze > 0.6) {
-    sb_model_refuse(problems, outer ? "seal.outer.section_diameter" : "seal.inner.section_diameter",
-                    NAN, g / 0.4, "squeezes the %s seal by %.0f %%, more than 60 %%",
-                    sb_seal_name(index), 100 * seal->squeeze);
-  }
-  if (seal->stretch_inner > 1) {
-    sb_model_refuse(problems, outer ? "seal.outer.inner_diameter" : "seal.inner.inner_diameter",
-                    floor / 2, NAN,
-                    "stretches the %s seal by %.0f %% onto the groove floor, more than 100 %%",
-                    sb_seal_name(index), 100 * seal->stretch_inner);
-  }
+  check_fit(model, index, problems);
 }
 
 // Metered volume and doses; with ports there must be a chamber.

@@ -64,12 +64,23 @@ static void check_variant(const SbModel *model, SbProblems *problems) {
                   variant, all);
 }
 
-// Combinations that no model has, and ranges that do not rise.
-static void check_combinations(const SbModel *model, SbProblems *problems) {
-  // Upper ends of ranges; in the catalogue the lower end precedes each.
+// Refuses ranges of studies that do not rise. In the catalogue the lower end precedes the upper
+// one.
+static void check_ranges(const SbModel *model, SbProblems *problems) {
   static const SbParamId largest[] = {SB_P_STUDY_SQUEEZE_MAX, SB_P_STUDY_SPEED_MAX,
                                       SB_P_STUDY_LOAD_MAX, SB_P_STUDY_TIME_MAX,
                                       SB_P_STUDY_TEMPERATURE_MAX};
+  for (size_t i = 0; i < sizeof largest / sizeof largest[0]; i++) {
+    double least = sb_params_get(&model->params, largest[i] - 1);
+    if (!(sb_params_get(&model->params, largest[i]) > least)) {
+      sb_model_refuse(problems, sb_param(largest[i])->key, least, NAN,
+                      "the range of the study does not rise");
+    }
+  }
+}
+
+// Combinations that no model has, and ranges that do not rise.
+static void check_combinations(const SbModel *model, SbProblems *problems) {
   // The quasi-static balance must not be used silently with options that only the motion with
   // inertia has. At their minimum values they have no effect.
   static const SbParamId inertial[] = {SB_P_DRIVE_KIND, SB_P_DRIVE_CYCLES,
@@ -79,13 +90,7 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
       "needs models.motion = dynamic; the quasi-static cycle supports only the machine";
   const bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
   const bool lives = model->life_actuations > 1;
-  for (size_t i = 0; i < sizeof largest / sizeof largest[0]; i++) {
-    double least = sb_params_get(&model->params, largest[i] - 1);
-    if (!(sb_params_get(&model->params, largest[i]) > least)) {
-      sb_model_refuse(problems, sb_param(largest[i])->key, least, NAN,
-                      "the range of the study does not rise");
-    }
-  }
+  check_ranges(model, problems);
   for (size_t i = 0; balance && i < sizeof inertial / sizeof inertial[0]; i++) {
     const SbParam *param = sb_param(inertial[i]);
     if (sb_params_get(&model->params, inertial[i]) > param->min) {

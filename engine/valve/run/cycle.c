@@ -468,41 +468,79 @@ double sb_cycle_return_margin(const SbCycle *cycle, double top) {
   return least_of(cycle, reserve_at, top);
 }
 
+// Follows the in-stroke: the stem sticks until the static limit, slides, and again, until the stop;
+// there the platen reverses. Writes the time [s] for which the stem rests at the stop under a
+// rising force, and the platen's position at which it stopped [m].
+static SbStatus press(Planner *p, double *dwell, double *stopped, SbReport *report) {
+  SbCycle *cycle = p->cycle;
+  const SbModel *model = cycle->model;
+  const double k = model->stiffness;
+  while (!p->full) {
+    double friction = p->stage == SB_STAGE_A
+                          ? static_limit(cycle, p->chamber, SB_CYCLE_IN, p->s)
+                          : sb_cycle_friction(cycle, p->chamber, SB_CYCLE_IN, p->s);
+    // Below ambient the canister's pressure may draw the stem in by itself.
+    double X_slip = fmax(p->s + (sb_model_push(model, p->s) + friction) / k, p->X);
+    if (model->contact_ageing) {
+      double rested = p->stage == SB_STAGE_A ? model->rest : 0;
+      SbStatus status = slip_platen(&X_slip, p, SB_CYCLE_IN, rested, report);
+      if (status != SB_OK) {
+        return status;
+      }
+    }
+    if (p->s >= model->stroke) {
+      *dwell = fmax(p->s + model->reversal_force / k - p->X, 0) / model->speed;
+      *stopped = p->X;
+      emit(p, SB_CYCLE_STICK, fmax(p->s + model->reversal_force / k, p->X), p->s, -1);
+      break;
+    }
+    emit(p, SB_CYCLE_STICK, X_slip, p->s, p->stage == SB_STAGE_A ? SB_STAGE_B : -1);
+    slide(p);
+  }
+  return SB_OK;
+}
+
+// Follows the return after a rest of `dwell` [s] at the stop: the stem follows the platen while the
+// push exceeds static friction.
+static SbStatus release(Planner *p, double dwell, SbReport *report) {
+  SbCycle *cycle = p->cycle;
+  const SbModel *model = cycle->model;
+  const double k = model->stiffness;
+  while (!p->full && p->X > 0) {
+    const double limit = balance_at(p->s, &(Place){cycle, p->chamber, SB_CYCLE_OUT, 0});
+    double X_slip = p->s + limit / k;
+    if (model->contact_ageing) {
+      SbStatus status = slip_platen(&X_slip, p, SB_CYCLE_OUT, dwell, report);
+      if (status != SB_OK) {
+        return status;
+      }
+      dwell = 0;
+    }
+    if (p->s <= 0 || is_held(p) || X_slip <= 0) {
+      emit(p, SB_CYCLE_STICK, 0, p->s, -1);
+      break;
+    }
+    emit(p, SB_CYCLE_STICK, fmin(X_slip, p->X), p->s,
+         p->stage < SB_STAGE_E && p->stage >= SB_STAGE_B ? SB_STAGE_E : -1);
+    p->direction = SB_CYCLE_OUT;
+    slide(p);
+  }
+  return SB_OK;
+}
+
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   const SbModel *model = cycle->model;
   cycle->count = 0;
   double k = model->stiffness, dwell = 0, stopped = 0;
   Planner p = {.cycle = cycle, .platen = 1, .direction = SB_CYCLE_IN, .stage = SB_STAGE_A};
-
   // A chamber whose inner seal has no contact is always open.
   p.chamber =
       is_open(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN, 0) ? SB_CHAMBER_OPEN : SB_CHAMBER_AT_REST;
-
-  // In-stroke: stick until the static limit, slide, and again, until the stop; there the platen
-  // reverses.
-  while (!p.full) {
-    double friction = p.stage == SB_STAGE_A ? static_limit(cycle, p.chamber, SB_CYCLE_IN, p.s)
-                                            : sb_cycle_friction(cycle, p.chamber, SB_CYCLE_IN, p.s);
-    // Below ambient the canister's pressure may draw the stem in by itself.
-    double X_slip = fmax(p.s + (sb_model_push(model, p.s) + friction) / k, p.X);
-    if (model->contact_ageing) {
-      double rested = p.stage == SB_STAGE_A ? model->rest : 0;
-      SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_IN, rested, report);
-      if (status != SB_OK) {
-        return status;
-      }
-    }
-    if (p.s >= model->stroke) {
-      dwell = fmax(p.s + model->reversal_force / k - p.X, 0) / model->speed;
-      stopped = p.X;
-      emit(&p, SB_CYCLE_STICK, fmax(p.s + model->reversal_force / k, p.X), p.s, -1);
-      break;
-    }
-    emit(&p, SB_CYCLE_STICK, X_slip, p.s, p.stage == SB_STAGE_A ? SB_STAGE_B : -1);
-    slide(&p);
+  SbStatus status = press(&p, &dwell, &stopped, report);
+  if (status != SB_OK) {
+    return status;
   }
   cycle->platen_top = p.X;
-
   cycle->stem_top = p.s;
 
   // Return: the platen moves back to X = 0; the stem follows while the push exceeds static
@@ -510,28 +548,13 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   p.platen = -1;
   const double pushed = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
   cycle->dwell = (p.X - stopped + fmax(p.X - p.s - fmax(pushed, 0) / k, 0)) / model->speed;
-  SbStatus rest = sb_cycle_rest(cycle, cycle->dwell, report);
-  if (rest != SB_OK) {
-    return rest;
+  status = sb_cycle_rest(cycle, cycle->dwell, report);
+  if (status != SB_OK) {
+    return status;
   }
-  while (!p.full && p.X > 0) {
-    const double limit = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
-    double X_slip = p.s + limit / k;
-    if (model->contact_ageing) {
-      SbStatus status = slip_platen(&X_slip, &p, SB_CYCLE_OUT, dwell, report);
-      if (status != SB_OK) {
-        return status;
-      }
-      dwell = 0;
-    }
-    if (p.s <= 0 || is_held(&p) || X_slip <= 0) {
-      emit(&p, SB_CYCLE_STICK, 0, p.s, -1);
-      break;
-    }
-    emit(&p, SB_CYCLE_STICK, fmin(X_slip, p.X), p.s,
-         p.stage < SB_STAGE_E && p.stage >= SB_STAGE_B ? SB_STAGE_E : -1);
-    p.direction = SB_CYCLE_OUT;
-    slide(&p);
+  status = release(&p, dwell, report);
+  if (status != SB_OK) {
+    return status;
   }
   cycle->stem_end = p.s;
   if (p.full) {

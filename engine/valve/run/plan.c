@@ -278,13 +278,23 @@ static void valve_texts(Texts *out, const SbModel *model, unsigned drawn, unsign
           SB_VALVE_JOINTS);
 }
 
+static const char *film_reason(const SbPlan *plan, const SbModel *model) {
+  return model->kind == SB_VALVE_GASKET
+             ? "a gasket's edge lets little in: from the rise of its pressure there"
+         : model->asperities == SB_MODEL_ASPERITIES_COUPLED
+             ? "models.asperities = coupled: film and asperities carry the load together"
+         : plan->reynolds && sb_fit_kind(model->fit)->body
+             ? "boundary friction, viscous friction and leakage require it; on the half-plane and "
+               "on the fitted ring"
+             : "boundary friction, viscous friction and leakage require it";
+}
+
 // Adds a row for each part of a run of the valve.
 static void add_valve_rows(SbPlan *plan, const SbModel *model, const Costs *costs,
                            const Texts *texts, bool draws_section) {
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
   const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
-  const bool on_body = plan->reynolds && sb_fit_kind(model->fit)->body;
   const SbCounters *n = &plan->expected;
   const char *fit = sb_fit_kind(model->fit)->name;
   const double fit_off = fit_error(model), film_off = film_error(model);
@@ -297,13 +307,7 @@ static void add_valve_rows(SbPlan *plan, const SbModel *model, const Costs *cost
        gasket    ? "blok"
        : coupled ? "reynolds with asperities"
                  : texts->law,
-       costs->states, film_off,
-       gasket    ? "a gasket's edge lets little in: from the rise of its pressure there"
-       : coupled ? "models.asperities = coupled: film and asperities carry the load together"
-       : on_body ? "boundary friction, viscous friction and leakage require it; on the "
-                   "half-plane and on the fitted ring"
-                 : "boundary friction, viscous friction and leakage require it",
-       NULL},
+       costs->states, film_off, film_reason(plan, model), NULL},
       {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : texts->law,
        costs->speeds, SB_SPEED_TOLERANCE,
        "film and friction of every frame are those of its own speed", NULL},

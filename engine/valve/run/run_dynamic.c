@@ -140,8 +140,8 @@ static void mark(Recorder *r, SbStage stage, const SbMotionEvent *event) {
   r->stage = stage;
 }
 
-// Returns pressure and spring force minus friction of a stem that slides back. Events include the
-// largest speeds of a free return: at the land's edge and at the rest stop.
+// Notes the least pressure and spring force minus friction of a stem that slides back. Events
+// include the largest speeds of a free return: at the land's edge and at the rest stop.
 static void note_return(Recorder *r, const SbDynamicsSample *sample) {
   double force = -sample->loads_force - sample->spring_force;
   bool slides = sample->speed < 0;
@@ -152,10 +152,47 @@ static void note_return(Recorder *r, const SbDynamicsSample *sample) {
   r->return_least = slides ? fmin(r->return_least, force) : r->return_least;
 }
 
+// The stem reaches an edge.
+static void meet_edge(Recorder *r, const SbMotionEvent *event, const SbDynamicsSample *sample) {
+  const SbValve *valve = &r->valve;
+  double edge = valve->edge[event->index];
+  leak(r, sample->time, sample->position, sb_valve_chamber_pressure(valve, sample->extra),
+       edge == valve->edges.open || edge == valve->edges.closed);
+  if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
+    r->middle = event->speed;
+  } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
+             r->middle_back == 0) {
+    r->middle_back = -event->speed;
+  }
+  if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
+      r->stage == SB_STAGE_B) {
+    mark(r, SB_STAGE_C, event);
+  } else if (valve->touches && edge == valve->edges.closed && event->sign < 0 &&
+             event->time >= valve->times.turn && valve->chamber != SB_CHAMBER_AT_REST) {
+    // A rebound that passes the edge on the in-stroke is not the return.
+    mark(r, SB_STAGE_F, event);
+  }
+}
+
+// The stem reaches a stop.
+static void meet_stop(Recorder *r, const SbMotionEvent *event, const SbDynamicsSample *sample) {
+  if (event->index == SB_END_STOP) {
+    r->stopped = true;
+    r->rested = event->time;
+    if (!r->mark[SB_STAGE_D].reached) {
+      r->press = fmax(r->force_peak, r->motion.force_peak);
+    }
+    mark(r, SB_STAGE_D, event);
+  } else if (r->mark[SB_STAGE_E].reached) {
+    leak(r, sample->time, sample->position, sb_valve_chamber_pressure(&r->valve, sample->extra),
+         true);
+    r->home = r->home == 0 ? event->time : r->home;
+  }
+}
+
 static void valve_event(const SbMotionEvent *event, void *user) {
   Recorder *r = user;
-  const SbValve *valve = &r->valve;
-  const double turn = valve->times.turn;
+  const double turn = r->valve.times.turn;
   SbDynamicsSample sample;
   sb_dynamics_sample(&r->motion, &sample, NULL);
   if (r->mark[SB_STAGE_E].reached && event->speed < 0) {
@@ -173,38 +210,11 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     }
     r->direction = event->sign > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
     break;
-  case SB_MOTION_EDGE: {
-    double edge = valve->edge[event->index];
-    leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra),
-         edge == valve->edges.open || edge == valve->edges.closed);
-    if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
-      r->middle = event->speed;
-    } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
-               r->middle_back == 0) {
-      r->middle_back = -event->speed;
-    }
-    if (valve->touches && edge == r->run->model->land_edge && event->sign > 0 &&
-        r->stage == SB_STAGE_B) {
-      mark(r, SB_STAGE_C, event);
-    } else if (valve->touches && edge == valve->edges.closed && event->sign < 0 &&
-               event->time >= turn && valve->chamber != SB_CHAMBER_AT_REST) {
-      // A rebound that passes the edge on the in-stroke is not the return.
-      mark(r, SB_STAGE_F, event);
-    }
+  case SB_MOTION_EDGE:
+    meet_edge(r, event, &sample);
     break;
-  }
   case SB_MOTION_TOUCH_STOP:
-    if (event->index == SB_END_STOP) {
-      r->stopped = true;
-      r->rested = event->time;
-      if (!r->mark[SB_STAGE_D].reached) {
-        r->press = fmax(r->force_peak, r->motion.force_peak);
-      }
-      mark(r, SB_STAGE_D, event);
-    } else if (r->mark[SB_STAGE_E].reached) {
-      leak(r, sample.time, sample.position, sb_valve_chamber_pressure(valve, sample.extra), true);
-      r->home = r->home == 0 ? event->time : r->home;
-    }
+    meet_stop(r, event, &sample);
     break;
   case SB_MOTION_STICK:
     if (r->direction == SB_CYCLE_IN && !r->mark[SB_STAGE_D].reached) {
@@ -246,28 +256,11 @@ static bool begin_segment(void *data) {
   return sb_work_step(r->run->work);
 }
 
-// Makes the valve's mechanism and runs it to its end, to the model's tolerance or one other than 0.
-// A motion without frames leaves its warnings to the one that has them.
-static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double tolerance,
-                           const SbRunHooks *hooks, SbReport *report) {
-  SbWarnings *warnings = &run->summary.warnings;
-  const size_t told = warnings->count, dropped = warnings->dropped;
-  *r = (Recorder){.run = run, .frames = frames, .report = report, .return_least = INFINITY};
-  SbStatus status = sb_valve_set_up(&r->model, &r->valve, run, report);
-  if (!frames) {
-    warnings->count = told;
-    warnings->dropped = dropped;
-  }
-  r->model.poll = begin_segment;
-  r->model.poll_data = r;
-  r->model.tolerance = tolerance > 0 ? tolerance : r->model.tolerance;
-  status = status == SB_OK ? sb_dynamics_init(&r->motion, &r->model, report) : status;
-  if (status != SB_OK) {
-    return status;
-  }
-  r->leak_from = r->leak_last = r->model.start_position;
-  sb_bore_start(&run->bore, r->leak_from);
-  sb_dynamics_listen(&r->motion, valve_event, r);
+// Advances the motion from instant to instant until it ends, and adds the frames. `frames`: as many
+// as the plan has; otherwise at WITHOUT_FRAMES instants.
+static SbStatus advance(Recorder *r, bool frames, const SbRunHooks *hooks, SbReport *report) {
+  SbRun *run = r->run;
+  SbStatus status = SB_OK;
   const SbDriveTimes *times = &r->valve.times;
   const double drive = times->duration;
   // After the drive's end the motion is followed for the same time, at least ten seconds.
@@ -277,10 +270,6 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
   int corner = 0;
   size_t next = 1;
   double time = 0;
-  SbFrame *first = add_frame(r, true);
-  if (first != NULL) {
-    sb_run_mark_stage(run, SB_STAGE_A, first, 0);
-  }
   while (status == SB_OK &&
          (next < total || (!times->ends_run && time < last && !sb_dynamics_at_rest(&r->motion)))) {
     // The next even instant or a corner of the drive before it; behind the drive, wider and wider.
@@ -306,6 +295,36 @@ static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double toleranc
       status = SB_ERROR_CANCELLED;
     }
   }
+  return status;
+}
+
+// Makes the valve's mechanism and runs it to its end, to the model's tolerance or one other than 0.
+// A motion without frames leaves its warnings to the one that has them.
+static SbStatus run_motion(Recorder *r, SbRun *run, bool frames, double tolerance,
+                           const SbRunHooks *hooks, SbReport *report) {
+  SbWarnings *warnings = &run->summary.warnings;
+  const size_t told = warnings->count, dropped = warnings->dropped;
+  *r = (Recorder){.run = run, .frames = frames, .report = report, .return_least = INFINITY};
+  SbStatus status = sb_valve_set_up(&r->model, &r->valve, run, report);
+  if (!frames) {
+    warnings->count = told;
+    warnings->dropped = dropped;
+  }
+  r->model.poll = begin_segment;
+  r->model.poll_data = r;
+  r->model.tolerance = tolerance > 0 ? tolerance : r->model.tolerance;
+  status = status == SB_OK ? sb_dynamics_init(&r->motion, &r->model, report) : status;
+  if (status != SB_OK) {
+    return status;
+  }
+  r->leak_from = r->leak_last = r->model.start_position;
+  sb_bore_start(&run->bore, r->leak_from);
+  sb_dynamics_listen(&r->motion, valve_event, r);
+  SbFrame *first = add_frame(r, true);
+  if (first != NULL) {
+    sb_run_mark_stage(run, SB_STAGE_A, first, 0);
+  }
+  status = advance(r, frames, hooks, report);
   status = sb_work_status(run->work, status, report);
   r->force_peak = fmax(r->force_peak, r->motion.force_peak);
   SbDynamicsSample end;
@@ -628,6 +647,50 @@ static SbStatus follow(Recorder *r, double *tolerance, SbRun *run, const SbRunHo
   return status;
 }
 
+// Finds the errors of a motion with status SB_OK: of its steps, relative to the largest force and
+// to the largest work (NaN: not known), and of the states.
+static SbStatus find_errors(double *force, double *work, const Recorder *r, double tolerance,
+                            const SbRunHooks *hooks, SbReport *report) {
+  SbRun *run = r->run;
+  SbStatus status = SB_OK;
+  Recorder coarse;
+  const Recorder *same = r; // a closed form does not depend on the tolerance
+  if (r->motion.counters.steps > 0) {
+    SbReport own = {0};
+    SbWork part, *whole = begin_part(run, &part);
+    SbStatus estimate = estimate_error(&coarse, r, tolerance, force, work, hooks, &own);
+    end_part(run, whole, &part);
+    if (estimate == SB_ERROR_NOT_CONVERGED) {
+      // The motion itself is valid.
+      *force = *work = NAN;
+      lose_errors(run, &own);
+    } else if (estimate != SB_OK) {
+      status = sb_fail(report, estimate, "%s", own.text);
+    } else {
+      same = &coarse;
+    }
+  }
+  if (status == SB_OK) {
+    SbWork part, *whole = begin_part(run, &part);
+    status = find_state_errors(run, same, tolerance, hooks, report);
+    end_part(run, whole, &part);
+  }
+  return status;
+}
+
+// Sets the errors of forces and energies from those of the states and of the motion.
+static void fill_errors(SbRun *run, const Recorder *r, double force, double work) {
+  SbSummary *summary = &run->summary;
+  double states = summary->error_load + sb_run_error_friction(run);
+  summary->error_force = isnan(force) ? NAN : fmax(states, force) + straight_force(run);
+  const SbEnergy *energy = &summary->energy;
+  double straight = energy->external_max > 0
+                        ? run->straight_error * fabs(energy->friction) / energy->external_max
+                        : 0;
+  const double worst = fmax(fmax(states, work), energy->closure) + straight;
+  summary->error_energy = isnan(work) ? NAN : does_work(r) ? worst : 0;
+}
+
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   SbSummary *summary = &run->summary;
@@ -665,37 +728,11 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   // Closed form throughout: rounding only.
   double force = 1e-12;
   double work = 1e-12;
-  Recorder coarse;
-  const Recorder *same = &r; // a closed form does not depend on the tolerance
-  if (status == SB_OK && counters.steps > 0 && !run->follows) {
-    SbReport own = {0};
-    SbWork part, *whole = begin_part(run, &part);
-    SbStatus estimate = estimate_error(&coarse, &r, tolerance, &force, &work, hooks, &own);
-    end_part(run, whole, &part);
-    if (estimate == SB_ERROR_NOT_CONVERGED) {
-      // The motion itself is valid.
-      force = work = NAN;
-      lose_errors(run, &own);
-    } else if (estimate != SB_OK) {
-      status = sb_fail(report, estimate, "%s", own.text);
-    } else {
-      same = &coarse;
-    }
-  }
   if (status == SB_OK && !run->follows) {
-    SbWork part, *whole = begin_part(run, &part);
-    status = find_state_errors(run, same, tolerance, hooks, report);
-    end_part(run, whole, &part);
+    status = find_errors(&force, &work, &r, tolerance, hooks, report);
   }
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : speeds;
-  double states = summary->error_load + sb_run_error_friction(run);
-  summary->error_force = isnan(force) ? NAN : fmax(states, force) + straight_force(run);
-  const SbEnergy *energy = &summary->energy;
-  double straight = energy->external_max > 0
-                        ? run->straight_error * fabs(energy->friction) / energy->external_max
-                        : 0;
-  const double worst = fmax(fmax(states, work), energy->closure) + straight;
-  summary->error_energy = isnan(work) ? NAN : does_work(&r) ? worst : 0;
+  fill_errors(run, &r, force, work);
   return status;
 }

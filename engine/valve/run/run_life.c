@@ -324,6 +324,18 @@ static SbStatus solve_life(SbRun *run, SbRun *one, const SbRunHooks *hooks, SbRe
   return status;
 }
 
+// Adds actuation `n` (from 0) to the sums of a life.
+static void add_actuation(SbRun *run, long n, const SbLifeActuation *now) {
+  SbLife *life = &run->summary.life;
+  run->life[n] = *now;
+  life->leakage += now->leakage;
+  life->carried += now->carried;
+  life->return_least = fmin(life->return_least, now->force_return); // without NaN
+  life->failure = now->returned > 0 ? 0 : n + 1;
+  life->first = run->life[0];
+  life->done = n + 1;
+}
+
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
@@ -358,13 +370,7 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
       break;
     }
     const SbLifeActuation now = coupled ? run->life[n] : yield_of(n > 0 ? one : run, n, roughness);
-    run->life[n] = now;
-    life->leakage += now.leakage;
-    life->carried += now.carried;
-    life->return_least = fmin(life->return_least, now.force_return); // without NaN
-    life->failure = now.returned > 0 ? 0 : n + 1;
-    life->first = run->life[0];
-    life->done = n + 1;
+    add_actuation(run, n, &now);
     if (n > 0 && n + 1 == model->life_shown && !coupled) {
       show(run, one, shown);
     }

@@ -129,6 +129,65 @@ static void contact_pressure(double *out, const SbFit *fit, const double *x, siz
   }
 }
 
+// Writes the points of a solved film. `scale`: those of the half-plane, from its contact to the
+// fitted one of the middle `middle` and the half-width `half` [m].
+static size_t film_rows(double *x, double *pressure, double *h, const SbFilm *film, double low,
+                        bool scale, double middle, double half) {
+  const double stretch = half / film->hertz_half_width;
+  for (size_t i = 0; i < film->points; i++) {
+    x[i] = scale ? middle + stretch * film->x[i] : film->x[i];
+    pressure[i] = film->pressure[i] - low;
+    h[i] = film->film[i];
+  }
+  return film->points;
+}
+
+// Writes x and the film of a fitted contact without a solved film to `x` and `h`: points on both
+// sides of the contact and those of the fit between them. Returns their number.
+static size_t dry_rows(double *x, double *h, const SbRun *run, int seal, const SbFit *fit,
+                       double film) {
+  const bool gasket = run->model->kind == SB_VALVE_GASKET;
+  const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
+  const double scale = a * a / run->model->seal[seal].radius;
+  const double edge = run->model->profile_corner_radius;
+  size_t n = 0;
+  for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
+    double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
+    for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
+      x[n] = fit->profile_x[k];
+      h[n++] = film;
+    }
+    if (i != 0) {
+      x[n] = middle + copysign(xi * a, i);
+      h[n++] = film + (gasket ? pow((xi - 1) * a, 2) / (2 * edge) : scale * sb_film_dry_gap(xi));
+    }
+  }
+  return n;
+}
+
+// Writes the pressure of a gasket's asperities: that of the contact `p` above the fluid's.
+static SbStatus gasket_asperities(double *out, const double *x, const double *p, size_t n,
+                                  const Task *task, double middle, SbReport *report) {
+  const double low = fmin(task->pressure.left, task->pressure.right);
+  for (size_t i = 0; i < n; i++) {
+    const double fluid = (x[i] < middle ? task->pressure.left : task->pressure.right) - low;
+    out[i] = fmax(p[i] - fluid, 0);
+  }
+  return sb_sliding_edge_asperities(out, out, n, task->run->model, task->seal,
+                                    task->state->film_central, report);
+}
+
+// Puts rows that are `capacity` apart next to each other, and replaces the profile by them.
+static void store_profile(SbRunProfile *profile, double *x, size_t n, size_t capacity,
+                          const SbModel *model) {
+  free(profile->data);
+  profile->data = x;
+  for (size_t row = 1; row < SB_PROFILE_ROWS && n < capacity; row++) {
+    memmove(x + row * n, x + row * capacity, n * sizeof *x);
+  }
+  profile->view = sb_run_profile_view(x, n, sb_fit_kind(model->fit)->name);
+}
+
 // Pressure and film over one contact, from what the seal's memory has just solved. The pressure is
 // the fitment's. A solved film is the solver's own, on the fitted body where the fitment gives one,
 // and has a pressure of its own; of a closed form the central film is uniform in the contact (the
@@ -160,33 +219,14 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   const double left = pressure.left - low, right = pressure.right - low;
   const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
   if (solved) {
-    const double stretch = a / film->hertz_half_width;
-    for (n = 0; n < film->points; n++) {
-      x[n] = scaled ? middle + stretch * film->x[n] : film->x[n];
-      film_pressure[n] = film->pressure[n] - low;
-      h[n] = film->film[n];
-    }
+    n = film_rows(x, film_pressure, h, film, low, scaled, middle, a);
     if (fitted) {
       contact_pressure(p, fit, x, n, left, right);
     } else {
       memcpy(p, film_pressure, n * sizeof *p);
     }
   } else if (fitted) {
-    double scale = a * a / run->model->seal[seal].radius, edge = run->model->profile_corner_radius;
-    for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
-      double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
-      for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
-        x[n] = fit->profile_x[k];
-        h[n++] = state->film_central;
-      }
-      if (i != 0) {
-        x[n] = middle + copysign(xi * a, i);
-        h[n++] = state->film_central +
-                 (gasket ? pow((xi - 1) * a, 2) / (2 * edge) : scale * sb_film_dry_gap(xi));
-      }
-    }
-  }
-  if (!solved && fitted) {
+    n = dry_rows(x, h, run, seal, fit, state->film_central);
     contact_pressure(p, fit, x, n, left, right);
   }
   for (size_t i = 0; !solved && i < n; i++) {
@@ -195,11 +235,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   if (solved && coupled) {
     memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
   } else if (gasket && fitted) {
-    for (size_t i = 0; i < n; i++) {
-      asperities[i] = fmax(p[i] - (x[i] < middle ? left : right), 0);
-    }
-    SbStatus status = sb_sliding_edge_asperities(asperities, asperities, n, run->model, seal,
-                                                 state->film_central, report);
+    SbStatus status = gasket_asperities(asperities, x, p, n, task, middle, report);
     if (status != SB_OK) {
       free(x);
       return status;
@@ -207,13 +243,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   } else if (fitted && run->model->surface == SB_ROUGH_GREENWOOD_TRIPP) {
     asperity_pressure(run->model, seal, h, asperities, n);
   }
-  free(profile->data);
-  profile->data = x;
-  // The rows are `capacity` apart; a view has them next to each other.
-  for (size_t row = 1; row < SB_PROFILE_ROWS && n < capacity; row++) {
-    memmove(x + row * n, x + row * capacity, n * sizeof *x);
-  }
-  profile->view = sb_run_profile_view(x, n, sb_fit_kind(run->model->fit)->name);
+  store_profile(profile, x, n, capacity, run->model);
   task->lane->counters.profile_evaluations++;
   return SB_OK;
 }

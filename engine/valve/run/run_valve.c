@@ -269,6 +269,34 @@ static void add_edge(SbDynamicsModel *out, double x) {
   out->edges++;
 }
 
+// Refuses ports without resistance that are open to different pressures simultaneously.
+static SbStatus check_ports(const SbChamberModel *chamber, const SbModel *model, SbReport *report) {
+  for (size_t i = 0; i < chamber->ports; i++) {
+    for (size_t k = 0; k < i; k++) {
+      const SbChamberPort *a = &chamber->port[i];
+      const SbChamberPort *b = &chamber->port[k];
+      if (a->pressure != b->pressure && a->low < b->high && b->low < a->high) {
+        return sb_fail_input(
+            report, SB_ERROR_INFEASIBLE, sb_input(SB_P_CHAMBER_FLOW),
+            "the chamber would be open to canister and vent simultaneously (stem at %.3g to %.3g "
+            "mm): "
+            "a pressure between them needs chamber.flow = orifice, or other places of the vent "
+            "(bore.vent_position) and the by-pass (bore.refill_travel)",
+            1e3 * fmax(fmax(a->low, b->low), 0), 1e3 * fmin(fmin(a->high, b->high), model->stroke));
+      }
+    }
+  }
+  return SB_OK;
+}
+
+// Warns if the chamber never reaches the vent, which is open from `low` to `high` [m].
+static void warn_no_vent(const SbValve *valve, double low, double high) {
+  sb_warn(&valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
+          "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
+          "moves from 0 to %.3g mm",
+          1e3 * low, 1e3 * high, 1e3 * valve->run->model->stroke);
+}
+
 static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
   const SbModel *model = valve->run->model;
   const SbValveType *type = sb_valve_type(model);
@@ -293,10 +321,7 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   double low, high, hole = model->outlet_diameter;
   const bool vents = type->vent(&low, &high, &valve->run->cycle);
   if (hole > 0 && !vents && !type->fills_at_rest) {
-    sb_warn(&valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
-            "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
-            "moves from 0 to %.3g mm",
-            1e3 * low, 1e3 * high, 1e3 * model->stroke);
+    warn_no_vent(valve, low, high);
   }
   if (vents) {
     chamber->port[chamber->ports++] =
@@ -314,20 +339,9 @@ static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report
   if (status != SB_OK) {
     return status;
   }
-  for (size_t i = 0; at_once && i < chamber->ports; i++) {
-    for (size_t k = 0; k < i; k++) {
-      const SbChamberPort *a = &chamber->port[i];
-      const SbChamberPort *b = &chamber->port[k];
-      if (a->pressure != b->pressure && a->low < b->high && b->low < a->high) {
-        return sb_fail_input(
-            report, SB_ERROR_INFEASIBLE, sb_input(SB_P_CHAMBER_FLOW),
-            "the chamber would be open to canister and vent simultaneously (stem at %.3g to %.3g "
-            "mm): "
-            "a pressure between them needs chamber.flow = orifice, or other places of the vent "
-            "(bore.vent_position) and the by-pass (bore.refill_travel)",
-            1e3 * fmax(fmax(a->low, b->low), 0), 1e3 * fmin(fmin(a->high, b->high), model->stroke));
-      }
-    }
+  status = at_once ? check_ports(chamber, model, report) : SB_OK;
+  if (status != SB_OK) {
+    return status;
   }
   for (size_t i = 0; i < chamber->ports; i++) {
     add_edge(out, chamber->port[i].low);
@@ -548,6 +562,33 @@ static double peak_on(double peak, double share) {
   return share > 0.5 ? peak : share > 0 ? peak * sqrt(fmax(1 - c * c, 0)) : 0;
 }
 
+// Fills films, real contact and friction of a frame from the state of the seal; `on`: the fractions
+// on the land; `moving` in `direction`, else at rest. `out` has the friction of the motion.
+static void fill_film(SbSealFrame *out, const SbModel *model, const SbSealState *state,
+                      const SbLandShare *on, bool moving, int direction) {
+  // At rest the surfaces meet; off the land there is no film.
+  out->friction_boundary = out->friction;
+  if (!state->touches || !(on->width > 0)) {
+    out->film_min = out->film_central = out->lambda = out->real_area_share = NAN;
+  } else if (moving) {
+    out->film_min = state->film_min;
+    out->film_central = state->film_central;
+    out->lambda = state->lambda;
+    out->real_area_share = state->real_area_share;
+    const double way = direction == SB_CYCLE_IN ? 1 : -1;
+    out->friction_viscous = way * on->width * state->friction_viscous;
+    out->friction_boundary =
+        way * (on->width * state->boundary_area + on->load * state->boundary_load);
+    if (model->stribeck_speed > 0 || !(way * out->friction > 0)) {
+      // Stribeck's factor acts on the boundary part; a patch may slide in the other direction.
+      out->friction_boundary = out->friction - out->friction_viscous;
+    }
+    out->friction = out->friction_boundary + out->friction_viscous;
+  } else {
+    out->real_area_share = state->rest_area_share;
+  }
+}
+
 // Contact, load, film and friction of one seal, all of one state.
 static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *at) {
   const SbDynamicsSample *sample = &at->sample;
@@ -603,26 +644,7 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   if (model->pressure_map == SB_MAP_PORTS) {
     *(seal == SB_INNER ? &out->pressure_right : &out->pressure_left) = (float)at->pressure;
   }
-  // At rest the surfaces meet; off the land there is no film.
-  out->friction_boundary = out->friction;
-  if (!state.touches || !(on.width > 0)) {
-    out->film_min = out->film_central = out->lambda = out->real_area_share = NAN;
-  } else if (moving) {
-    out->film_min = state.film_min;
-    out->film_central = state.film_central;
-    out->lambda = state.lambda;
-    out->real_area_share = state.real_area_share;
-    const double way = direction == SB_CYCLE_IN ? 1 : -1;
-    out->friction_viscous = way * on.width * state.friction_viscous;
-    out->friction_boundary = way * (on.width * state.boundary_area + on.load * state.boundary_load);
-    if (model->stribeck_speed > 0 || !(way * out->friction > 0)) {
-      // Stribeck's factor acts on the boundary part; a patch may slide in the other direction.
-      out->friction_boundary = out->friction - out->friction_viscous;
-    }
-    out->friction = out->friction_boundary + out->friction_viscous;
-  } else {
-    out->real_area_share = state.rest_area_share;
-  }
+  fill_film(out, model, &state, &on, moving, direction);
 }
 
 void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film, bool fitted) {

@@ -146,6 +146,7 @@ void sb_sliding_forget_fitment(const SbSlidingTask *task) {
 
 // Fails for a ring that the base has not; nothing of another fitment is left.
 static SbStatus no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbReport *report) {
+  on->known = false;
   memset(&on->fit, 0, sizeof on->fit);
   return sb_fail(report, SB_ERROR_NOT_CONVERGED,
                  "no tangent of a ring that rolls or jams at the base");
@@ -208,7 +209,6 @@ static SbStatus solve_fit(const SbSlidingTask *task, const SbSlidingLaw *law, Sb
   problem.start = from.ring != NULL ? &from : NULL;
   memory->rested = false;
   if (memory->tangent && is_ring(task) && start == NULL) {
-    now->known = false;
     return no_tangent(task, now, report);
   }
   now->pressure = pressure;
@@ -564,6 +564,86 @@ static void warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const Sb
   }
 }
 
+// Solves a round of a drag: the ring dragged by `law` (NULL: as it is known) and its film. *like is
+// the task with warnings of its own, those of the last round.
+static SbStatus drag_round(SbSlidingTask *like, const SbSlidingTask *task, const SbSlidingLaw *law,
+                           SbSealState *out, SbReport *report) {
+  SbSlidingMemory *memory = task->memory;
+  SbWarnings *own = &memory->warnings;
+  memset(own, 0, sizeof *own);
+  own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
+  *like = *task;
+  like->warnings = own;
+  memory->rest_waits = true;
+  const SbStatus status = sb_sliding_solve_with(like, law, out, report);
+  memory->rest_waits = memory->near = false;
+  return status;
+}
+
+// What a round of a drag found.
+typedef struct {
+  SbSlidingLaw law; // of its film
+  double before;    // friction that dragged its ring [N]
+  double asked;     // friction of its film on that ring [N]
+  bool agrees;      // both are equal to the tolerance
+} RoundEnd;
+
+// Returns whether friction and ring of a round agree: to half the model's tolerance, or to a jump
+// within the error of the film in `state` (sb_sliding_drag()) if no smaller difference can be
+// found: in the last round, or in a `bracket` of that width. Else moves the next law, *law, into
+// the bracket.
+static bool judge_round(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment *on,
+                        const RoundEnd *end, double bracket[2], bool last,
+                        const SbSealState *state) {
+  const double close = 0.5 * task->model->tolerance;
+  const double asked = end->asked, apart = fabs(asked - end->before);
+  if (on->fit.ring.state != SB_RING_SLIDES) {
+    return asked >= (1 - close) * fabs(on->fit.ring.drag);
+  }
+  if (apart > fmax(close, on->jump) * asked) {
+    near_law(law, &on->law, bracket);
+    last = last || bracket[1] - bracket[0] <= 2 * close * law->shear;
+    on->jump = last && apart <= state->central_error * asked ? apart / asked : on->jump;
+  }
+  return apart <= fmax(close, on->jump * (1 + 4 * DBL_EPSILON)) * asked;
+}
+
+// Accepts the last round of a drag, whose solution had `status`: solves the state at rest,
+// estimates the error of the friction and reduces the friction to what the section carries.
+static SbStatus end_drag(SbSealState *out, const SbSlidingTask *task, SbSlidingFitment *on,
+                         const RoundEnd *end, SbStatus status, SbReport *report) {
+  // Of the friction at which a gasket detaches: its path ends at 0.50 to 0.66 of the pressure,
+  // depending on the mesh (the default gasket with a shear strength of 5.85 MPa).
+  static const double DETACHED_SCATTER = 0.25;
+  const bool slides = on->fit.ring.state == SB_RING_SLIDES;
+  const double apart = fabs(end->asked - end->before); // both 0 without friction
+  SbStatus next =
+      slides ? add_difference(out, task, &on->pull, apart, status == SB_OK ? report : NULL) : SB_OK;
+  if (next != SB_OK) {
+    return next;
+  }
+  next = sb_sliding_rest(task, out, status == SB_OK ? report : NULL);
+  if (!sb_sliding_usable(next)) {
+    return next;
+  }
+  status = status == SB_OK ? next : status;
+  next = bear(out, task, on, &end->law, status == SB_OK ? report : NULL);
+  if (!slides && task->model->kind == SB_VALVE_GASKET) {
+    // Its film, a closed form, has no error.
+    out->friction_error = fmax(out->friction_error, 0) + DETACHED_SCATTER * fabs(on->fit.ring.drag);
+  }
+  status = next != SB_OK ? next : status;
+  if (!end->agrees) {
+    return sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                   "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
+                   sb_seal_name(task->seal), end->before, end->asked);
+  }
+  if (!slides) {
+    warn_limit(task->warnings, task, out);
+  }
+  return status;
+}
+
 // Computes the state of a sliding ring: friction drags it, and depends on the film on the dragged
 // ring. Both are solved in turns until the friction that drags the ring is that of its own film. A
 // ring whose maximum drag is less than its friction rolls or jams; the film is then that of this
@@ -572,10 +652,6 @@ static void warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const Sb
 // accepted, and is an error of the friction.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
   enum { ROUNDS = 6 };
-  // Of the friction at which a gasket detaches: its path ends at 0.50 to 0.66 of the pressure,
-  // depending on the mesh (the default gasket with a shear strength of 5.85 MPa).
-  static const double DETACHED_SCATTER = 0.25;
-  const double close = 0.5 * task->model->tolerance;
   const double pressure = task->pressure.left - task->pressure.right;
   SbSlidingMemory *memory = task->memory;
   SbSlidingFitment *on = &memory->fitment[task->speed > 0 ? IN : OUT];
@@ -586,7 +662,6 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
   }
   if (memory->tangent && start == NULL) {
     memory->now = on;
-    on->known = false;
     sb_sliding_clear(out);
     return no_tangent(task, on, report);
   }
@@ -597,82 +672,38 @@ SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *
     on->jump = 0;
     known = mirrored = mirror(task, on);
   }
-  SbSlidingLaw law;
-  if (!known) {
-    law = first_law(task, on, start);
-  }
-  SbWarnings *own = &memory->warnings;
+  SbSlidingLaw law = known ? on->law : first_law(task, on, start);
   SbStatus status = SB_OK;
   double bracket[2] = {-INFINITY, INFINITY};
   Round earlier = {0};
   for (int round = 0;; round++) {
-    SbSlidingTask like = *task;
-    memset(own, 0, sizeof *own); // of the last round
-    own->subject = task->warnings != NULL ? task->warnings->subject : NULL;
-    like.warnings = own;
-    memory->rest_waits = true;
+    SbSlidingTask like;
     memory->near = round > 0 || mirrored;
-    status = sb_sliding_solve_with(&like, known && round == 0 ? NULL : &law, out, report);
-    memory->rest_waits = memory->near = false;
+    status = drag_round(&like, task, known && round == 0 ? NULL : &law, out, report);
     if (!sb_sliding_usable(status) || !(out->load > 0)) {
       break;
     }
     sb_sliding_law(&law, task->model, out);
-    const SbSlidingLaw own_law = law; // that of the film
-    double asked = law_force(&law, &on->fit), before = law_force(&on->law, &on->fit);
-    if (!isfinite(asked)) {
+    RoundEnd end = {law, law_force(&on->law, &on->fit), law_force(&law, &on->fit), false};
+    if (!isfinite(end.asked)) {
       (void)sb_sliding_rest(&like, out, NULL);
       break;
     }
-    bool slides = on->fit.ring.state == SB_RING_SLIDES;
-    const double apart = fabs(asked - before); // both 0 without friction
-    const Round now = round_of(before, &on->fit);
+    const Round now = round_of(end.before, &on->fit);
     if (round > 0) {
-      set_pull(&on->pull, &earlier, &now, apart, pressure == 0);
+      set_pull(&on->pull, &earlier, &now, fabs(end.asked - end.before), pressure == 0);
     } else if (!known) {
       on->pull = start != NULL ? start->pull : usual_pull(&on->fit);
     }
     earlier = now;
-    if (slides && apart > fmax(close, on->jump) * asked) {
-      near_law(&law, &on->law, bracket);
-      const bool last = round + 1 == ROUNDS || bracket[1] - bracket[0] <= 2 * close * law.shear;
-      on->jump = last && apart <= out->central_error * asked ? apart / asked : on->jump;
-    }
-    bool agree = slides ? apart <= fmax(close, on->jump * (1 + 4 * DBL_EPSILON)) * asked
-                        : asked >= (1 - close) * fabs(on->fit.ring.drag);
-    if (!agree && round + 1 < ROUNDS) {
+    end.agrees = judge_round(&law, &like, on, &end, bracket, round + 1 == ROUNDS, out);
+    if (!end.agrees && round + 1 < ROUNDS) {
       continue;
     }
     on->found = first || round > 0 ? law : on->found;
-    SbStatus errors =
-        slides ? add_difference(out, &like, &on->pull, apart, status == SB_OK ? report : NULL)
-               : SB_OK;
-    if (errors != SB_OK) {
-      status = errors;
-      break;
-    }
-    SbStatus rests = sb_sliding_rest(&like, out, status == SB_OK ? report : NULL);
-    if (!sb_sliding_usable(rests)) {
-      status = rests;
-      break;
-    }
-    status = status == SB_OK ? rests : status;
-    SbStatus borne = bear(out, &like, on, &own_law, status == SB_OK ? report : NULL);
-    if (!slides && task->model->kind == SB_VALVE_GASKET) {
-      // Its film, a closed form, has no error.
-      out->friction_error =
-          fmax(out->friction_error, 0) + DETACHED_SCATTER * fabs(on->fit.ring.drag);
-    }
-    status = borne != SB_OK ? borne : status;
-    if (!agree) {
-      status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                       "fitment and friction of the %s seal do not agree: %.5g N and %.5g N",
-                       sb_seal_name(task->seal), before, asked);
-    } else if (!slides) {
-      warn_limit(own, task, out);
-    }
+    status = end_drag(out, &like, on, &end, status, report);
     break;
   }
-  sb_warnings_merge(task->warnings, own);
+  sb_warnings_merge(task->warnings, &memory->warnings);
   return status;
 }
