@@ -100,6 +100,7 @@ typedef struct {
   double smooth_gap;     // scale of the gap as a function of t without a law
   double hamaker;        // A_H [J]; 0: off
   bool sealed;        // no flow: prescribed film pressure of the dry contact, all nodes cavitated
+  bool cautious;      // Newton's method keeps the cavity after a shortened step
   bool coarse;        // larger elements, so that two levels fit into the mesh
   double flux, inlet; // estimates: flux film; X at which the film pressure begins
   struct {

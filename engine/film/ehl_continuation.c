@@ -288,6 +288,14 @@ static SbStatus start_flooded(SbFilmSolver *solver, const SbEhlCase *target) {
       status = follow_path(solver, &start, target, 0.25);
     }
   }
+  if (status == SB_ERROR_NOT_CONVERGED && target->rough.rows && !target->rough.sealed) {
+    // Where asperities carry little of the load, the cavity of the first steps may be wrong in the
+    // whole film, from which Newton's method does not return.
+    start = *target;
+    start.rough.cautious = true;
+    status = start_at(solver, &start);
+    status = status == SB_OK ? follow_fronts(solver) : status;
+  }
   return status;
 }
 
