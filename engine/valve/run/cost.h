@@ -4,7 +4,7 @@
 #pragma once
 
 #include "engine/contact/fit.h"
-#include "engine/valve/model/model.h"
+#include "engine/valve/states/contact_law.h"
 
 #include <math.h>
 
@@ -46,7 +46,7 @@ static inline double sb_cost_film(SbFilmModel model) {
 
 // Returns the time of one film of a model's state at another speed [s].
 static inline double sb_cost_speed_state(const SbModel *model) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(model)->shares;
   const bool body = sb_fit_kind(model->fit)->body;
   return coupled                                      ? SB_COST_FILM_MIXED
          : sb_film_kind(model->film)->coupled && body ? SB_COST_FILM_FITTED

@@ -14,6 +14,8 @@
 #include "engine/valve/run/frame.h"
 #include "engine/valve/run/rig.h"
 #include "engine/valve/run/study_cost.h"
+#include "engine/valve/run/valve_type.h"
+#include "engine/valve/states/contact_law.h"
 #include "engine/valve/states/speed_states.h"
 
 #include <assert.h>
@@ -75,7 +77,7 @@ static double fit_error(const SbModel *model) {
 
 // Typical error estimate of a film, relative, at the model's tolerance.
 static double film_error(const SbModel *model) {
-  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+  if (sb_contact_law(model)->shares) {
     return 0.03 * model->tolerance;
   }
   if (!sb_film_kind(model->film)->coupled) {
@@ -151,20 +153,20 @@ typedef struct {
 // Numbers of solves. A ring slides in both directions at each pressure difference, fitted again
 // with its film until the friction that drags it is that of this film, and is at rest at each.
 static SbCounters expect(const SbPlan *plan, const SbModel *model) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const SbContactLaw *law = sb_contact_law(model);
   const SbFitKind *fit = sb_fit_kind(model->fit);
   const bool disc = fit->points && !fit->section;
   const size_t rounds = finds_speed(model) && !plan->ring ? OWN_SPEED_ROUNDS : 1;
-  const size_t fits = (size_t)count_fits(model), way = coupled ? 5 : 3; // rounds of both directions
+  const size_t fits = (size_t)count_fits(model),
+               way = law->shares ? 5 : 3; // rounds of both directions
   const size_t drags = plan->ring ? way * fits : 0;
   const size_t films = drags + (plan->ring ? 0 : 2 * fits);
-  const size_t each = plan->ring || (fit->body && !coupled) ? 2 : 1;
+  const size_t each = plan->ring || (fit->body && !law->shares) ? 2 : 1;
   // Rows over the land's edge and the free ring; of a gasket valve the free gasket alone.
-  const size_t rows = model->kind == SB_VALVE_GASKET ? 0 : 2 * SB_RUN_EDGES; // drawn
+  const size_t rows = sb_valve_type(model)->drawn_over_edge ? 2 * SB_RUN_EDGES : 0;
   const size_t edges = plan->over_edge ? rows + 1 : 0;
   const size_t shapes = SB_RUN_MOTIONS * fits + edges;
-  const bool gasket = model->kind == SB_VALVE_GASKET; // closed forms over the speed
-  const size_t nodes = gasket           ? plan->inertia ? SPEED_STATES : 0
+  const size_t nodes = law->closed_film ? plan->inertia ? SPEED_STATES : 0
                        : plan->reynolds ? plan->inertia ? SPEED_STATES : NEAR_STATES
                                         : 0;
   SbCounters out = {.fit_solves = drags + fits,
@@ -212,7 +214,8 @@ typedef struct {
 } Costs;
 
 static void valve_costs(Costs *out, const SbPlan *plan, const SbModel *model) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED, finds = finds_speed(model);
+  const SbContactLaw *law = sb_contact_law(model);
+  const bool coupled = law->shares, finds = finds_speed(model);
   const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
   const bool solved = sb_film_kind(model->film)->coupled, body = sb_fit_kind(model->fit)->body;
   const SbCounters *n = &plan->expected;
@@ -223,9 +226,9 @@ static void valve_costs(Costs *out, const SbPlan *plan, const SbModel *model) {
                                          : 2.0 * fits * (finds ? OWN_SPEED_ROUNDS : 1);
   const double at_speed = sb_cost_speed_state(model);
   // Each film on the half-plane has one on the fitted body in addition.
-  out->states = model->kind == SB_VALVE_GASKET ? 2.0 * fits * SB_COST_ROUGH
-                : on_body > 0 && !coupled      ? films / 2 * (film + on_body)
-                                               : films * at_speed;
+  out->states = law->closed_film          ? 2.0 * fits * SB_COST_ROUGH
+                : on_body > 0 && !coupled ? films / 2 * (film + on_body)
+                                          : films * at_speed;
   const double rests = fits; // of rings
   const double dragged = (double)n->fit_solves - rests;
   out->ring = sb_cost_ring_share(model->tolerance) *
@@ -265,7 +268,7 @@ static void valve_texts(Texts *out, const SbModel *model, unsigned drawn, unsign
              out->law);
   sb_message(out->life, sizeof out->life, "%d actuations while the roughness runs in; %s",
              model->life_actuations,
-             model->asperities == SB_MODEL_ASPERITIES_COUPLED
+             sb_contact_law(model)->shares
                  ? "films between coupled asperities are solved at some of them"
                  : "fitment and film are the first's");
   sb_message(out->profiles, sizeof out->profiles, "drawn by %s; each seal's states and at rest",
@@ -279,10 +282,8 @@ static void valve_texts(Texts *out, const SbModel *model, unsigned drawn, unsign
 }
 
 static const char *film_reason(const SbPlan *plan, const SbModel *model) {
-  return model->kind == SB_VALVE_GASKET
-             ? "a gasket's edge lets little in: from the rise of its pressure there"
-         : model->asperities == SB_MODEL_ASPERITIES_COUPLED
-             ? "models.asperities = coupled: film and asperities carry the load together"
+  const SbContactLaw *law = sb_contact_law(model);
+  return law->reason != NULL ? law->reason
          : plan->reynolds && sb_fit_kind(model->fit)->body
              ? "boundary friction, viscous friction and leakage require it; on the half-plane and "
                "on the fitted ring"
@@ -292,8 +293,8 @@ static const char *film_reason(const SbPlan *plan, const SbModel *model) {
 // Adds a row for each part of a run of the valve.
 static void add_valve_rows(SbPlan *plan, const SbModel *model, const Costs *costs,
                            const Texts *texts, bool draws_section) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool gasket = model->kind == SB_VALVE_GASKET; // whose film is a closed form of its pressure
+  const SbContactLaw *law = sb_contact_law(model);
+  const char *film = law->film != NULL ? law->film : texts->law;
   const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
   const SbCounters *n = &plan->expected;
   const char *fit = sb_fit_kind(model->fit)->name;
@@ -303,15 +304,10 @@ static void add_valve_rows(SbPlan *plan, const SbModel *model, const Costs *cost
        plan->ring ? costs->ring : (double)n->fit_solves * sb_cost_fit(model->fit), fit_off,
        texts->fit, NULL},
       {plan->ring, "ring", "", 0, 0, NULL, texts->ring},
-      {true, "film",
-       gasket    ? "blok"
-       : coupled ? "reynolds with asperities"
-                 : texts->law,
-       costs->states, film_off, film_reason(plan, model), NULL},
-      {plan->reynolds, "film over speed", coupled ? "reynolds with asperities" : texts->law,
-       costs->speeds, SB_SPEED_TOLERANCE,
+      {true, "film", film, costs->states, film_off, film_reason(plan, model), NULL},
+      {plan->reynolds, "film over speed", film, costs->speeds, SB_SPEED_TOLERANCE,
        "film and friction of every frame are those of its own speed", NULL},
-      {plan->reynolds, "reynolds film", "", 0, 0, NULL, gasket ? NULL : texts->film},
+      {plan->reynolds, "reynolds film", "", 0, 0, NULL, law->closed_film ? NULL : texts->film},
       {plan->film_history, "film history", "finite volumes",
        (double)n->film_steps * SB_COST_FILM_STEP, 0.03,
        "models.film_time = transient; the motion uses the friction of the steady film",
@@ -371,10 +367,8 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
 
 // Returns the part of the plan that depends on the model only.
 static SbPlan basis(const SbModel *model, bool life) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool gasket = model->kind == SB_VALVE_GASKET;
   return (SbPlan){.ring = sb_fit_kind(model->fit)->section,
-                  .reynolds = (sb_film_kind(model->film)->coupled || coupled) && !gasket,
+                  .reynolds = sb_contact_solves_film(model),
                   .life = life && model->life_actuations > 1,
                   .inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC,
                   .frames = model->frames,

@@ -207,10 +207,9 @@ static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
   case SB_BY_EDGE:
     return state->width_error * (state->contact_right - state->contact_left);
   case SB_BY_FILM_SOLVED:
-    return fabs(value) *
-           fmax(run->compared_error[seal], run->model->asperities == SB_MODEL_ASPERITIES_COUPLED
-                                               ? 0
-                                               : positive(state->central_error));
+    return fabs(value) * fmax(run->compared_error[seal], sb_contact_law(run->model)->shares
+                                                             ? 0
+                                                             : positive(state->central_error));
   case SB_BY_BOUNDARY:
     return state->boundary_error;
   case SB_BY_TURN:
@@ -257,7 +256,7 @@ static double of_dose(const SbRun *run, const SbFigure *figure) {
 }
 
 static double of_life(const SbRun *run, const SbFigure *figure, double value) {
-  const bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(run->model)->shares;
   // Between solved actuations parabolas are used, checked to the tolerance.
   const double between = coupled ? run->model->tolerance : 0;
   const SbLife *life = &run->summary.life;

@@ -280,7 +280,7 @@ void sb_run_summarise_seals(SbRun *run) {
     out->film_karaszkiewicz = film_by(run, seal, state, SB_FILM_KARASZKIEWICZ);
     out->film_thesis = film_by(run, seal, state, SB_FILM_THESIS);
     out->film_asymptotic = film_by(run, seal, state, SB_FILM_ASYMPTOTIC);
-    if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
+    if (sb_contact_law(model)->shares) {
       out->film_reynolds = film_by(run, seal, state, SB_FILM_REYNOLDS);
     }
     out->friction_boundary = out->boundary_area + out->boundary_load;
@@ -381,9 +381,9 @@ static void give_reasons_of_outcome(SbRun *run) {
 
 // Sets why figures of a seal are missing. `closed`: its film is a closed form.
 static void give_reasons_of_seal(SbSummary *summary, const SbModel *model, int seal, bool closed) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   const bool done = !isnan(summary->seal[seal].load); // else the run ended before
   const SbFitKind *fit = sb_fit_kind(model->fit);
+  const SbValveType *type = sb_valve_type(model);
   char still[96];
   snprintf(still, sizeof still, "models.fit = %s has no section that friction could turn",
            fit->name);
@@ -392,12 +392,11 @@ static void give_reasons_of_seal(SbSummary *summary, const SbModel *model, int s
       {!fit->section, "contact.return.rotation_deg", still},
       {summary->seal[seal].load == 0, "*",
        "the seal has no contact with the bore under its pressures"},
-      {model->kind == SB_VALVE_GASKET, "gland_fill",
-       "a gasket is clamped between plates, not in a gland"},
+      {type->no_gland != NULL, "gland_fill", type->no_gland},
       {model->profile != SB_SEAL_PROFILE_CIRCLE, "film_by_model*",
        "seal.profile is not a circle: the film laws are those of cylinders"},
       {closed, "film_by_model.reynolds", "models.film is a closed form: no film was solved"},
-      {!coupled, "asperity_load_share",
+      {!sb_contact_law(model)->shares, "asperity_load_share",
        "models.asperities = beside: asperities and film do not share the load"},
       {done, "film*", "the fluid opens the contact or carries it alone: no film law applies"},
       {done, "lambda", "there is no film"},
@@ -456,8 +455,7 @@ void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   const SbModel *model = run->model;
   const SbLife *life = &summary->life;
   const bool well = status == SB_OK;
-  const bool closed =
-      model->asperities != SB_MODEL_ASPERITIES_COUPLED && !sb_film_kind(model->film)->coupled;
+  const bool closed = !sb_contact_law(model)->shares && !sb_film_kind(model->film)->coupled;
   give_reasons_of_outcome(run);
   if (life->failure > 0) {
     sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",

@@ -338,7 +338,7 @@ static void add_actuation(SbRun *run, long n, const SbLifeActuation *now) {
 
 SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(model)->shares;
   const long count = model->life_actuations;
   const size_t shown = run->count;
   SbPlan single = run->plan;

@@ -20,6 +20,7 @@
 #include "engine/valve/run/run.h"
 #include "engine/valve/run/run_work.h"
 #include "engine/valve/run/valve_type.h"
+#include "engine/valve/states/contact_law.h"
 #include "engine/valve/states/speed_states.h"
 
 // Index of the motion "at rest"; capacities.

@@ -61,8 +61,7 @@ static int edge_shape(int way, int place) {
 }
 
 uint32_t sb_run_shape_over_edge(const SbRun *run, int way, double s) {
-  if (run->model->kind == SB_VALVE_GASKET) {
-    // The neck's shoulder is steep: the gasket is free until it has passed, then as it slides.
+  if (!sb_valve_type(run->model)->drawn_over_edge) {
     return slot(SB_INNER, SB_RUN_SHAPE_FREE);
   }
   double first = run->cycle.state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN].contact_left;
@@ -129,8 +128,7 @@ SbStatus sb_run_store_shape(SbRun *run, int seal, int index, const SbRing *ring,
                          .outline = triangle + corners};
   sb_ring_fields(ring, &fields);
   const SbModel *model = run->model;
-  const bool gasket = model->kind == SB_VALVE_GASKET;
-  const double floor = gasket ? model->bore_diameter / 2 : sb_ring_load(ring)->floor_radius;
+  const double floor = sb_valve_type(model)->base_radius(model, sb_ring_load(ring));
   for (size_t i = 0; i < n; i++) {
     place[2 * i + 1] -= floor;
     field[SB_FIELD_VON_MISES * n + i] = (float)fields.mises[i];
@@ -208,7 +206,7 @@ SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *
     counts->field_evaluations++;
     status = solve_free(run, &body, load, options, report);
   }
-  if (status != SB_OK || run->model->kind == SB_VALVE_GASKET) {
+  if (status != SB_OK || !sb_valve_type(run->model)->drawn_over_edge) {
     return status;
   }
   double begin = state.contact_left;

@@ -146,10 +146,8 @@ static size_t film_rows(double *x, double *pressure, double *h, const SbFilm *fi
 // sides of the contact and those of the fit between them. Returns their number.
 static size_t dry_rows(double *x, double *h, const SbRun *run, int seal, const SbFit *fit,
                        double film) {
-  const bool gasket = run->model->kind == SB_VALVE_GASKET;
+  const SbContactLaw *law = sb_contact_law(run->model);
   const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
-  const double scale = a * a / run->model->seal[seal].radius;
-  const double edge = run->model->profile_corner_radius;
   size_t n = 0;
   for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
     double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
@@ -159,15 +157,15 @@ static size_t dry_rows(double *x, double *h, const SbRun *run, int seal, const S
     }
     if (i != 0) {
       x[n] = middle + copysign(xi * a, i);
-      h[n++] = film + (gasket ? pow((xi - 1) * a, 2) / (2 * edge) : scale * sb_film_dry_gap(xi));
+      h[n++] = film + law->dry_gap(run->model, seal, xi, a);
     }
   }
   return n;
 }
 
 // Writes the pressure of a gasket's asperities: that of the contact `p` above the fluid's.
-static SbStatus gasket_asperities(double *out, const double *x, const double *p, size_t n,
-                                  const Task *task, double middle, SbReport *report) {
+static SbStatus edge_asperities(double *out, const double *x, const double *p, size_t n,
+                                const Task *task, double middle, SbReport *report) {
   const double low = fmin(task->pressure.left, task->pressure.right);
   for (size_t i = 0; i < n; i++) {
     const double fluid = (x[i] < middle ? task->pressure.left : task->pressure.right) - low;
@@ -200,10 +198,8 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, task->chamber, task->motion)];
   const SbFit *fit = sb_sliding_fit(run->memory[seal]);
   const SbFilm *film = sb_sliding_film(run->memory[seal]);
-  bool coupled = run->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const bool gasket = run->model->kind == SB_VALVE_GASKET; // its film is a closed form
-  bool solved =
-      !gasket && (coupled || sb_film_kind(run->model->film)->coupled) && state->film_central > 0;
+  const SbContactLaw *law = sb_contact_law(run->model);
+  bool solved = sb_contact_solves_film(run->model) && state->film_central > 0;
   bool fitted = state->touches && isfinite(state->load);
   const bool own_pressure = sb_fit_kind(run->model->fit)->points;
   // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
@@ -232,10 +228,10 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
   for (size_t i = 0; !solved && i < n; i++) {
     film_pressure[i] = NAN;
   }
-  if (solved && coupled) {
+  if (solved && law->shares) {
     memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
-  } else if (gasket && fitted) {
-    SbStatus status = gasket_asperities(asperities, x, p, n, task, middle, report);
+  } else if (law->closed_film && fitted) {
+    SbStatus status = edge_asperities(asperities, x, p, n, task, middle, report);
     if (status != SB_OK) {
       free(x);
       return status;
@@ -280,7 +276,6 @@ static void report_failure(const Task *task, SbReport *report) {
   const SbSealState *state = task->state;
   bool fitted = sb_sliding_fit(run->memory[task->seal])->solver.converged;
   bool complete = isfinite(sb_sliding_friction(state));
-  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   char place[96];
   if (fitted) {
     snprintf(place, sizeof place, "x %.3g to %.3g mm", 1e3 * state->contact_left,
@@ -292,9 +287,9 @@ static void report_failure(const Task *task, SbReport *report) {
   (void)sb_fail_input(
       report, cause.status, sb_input_resolve(cause.input),
       "%s (%s), %s seal, stages %s, %s, %s: %s; available: %s", fitted ? "film" : "fitment",
-      !fitted   ? sb_fit_kind(model->fit)->name
-      : coupled ? "with asperities"
-                : "reynolds",
+      !fitted                         ? sb_fit_kind(model->fit)->name
+      : sb_contact_law(model)->shares ? "with asperities"
+                                      : "reynolds",
       sb_seal_name(task->seal), stages[task->chamber], ways[task->motion], place, cause.text,
       complete ? "the last solution"
       : fitted ? "its fitment, the other states"

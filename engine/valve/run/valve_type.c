@@ -9,6 +9,11 @@
 // ---------------------------------------------------------------------------------------------------
 // Rings in a bore
 
+static double piston_base_radius(const SbModel *model, const SbRingLoad *load) {
+  (void)model;
+  return load->floor_radius;
+}
+
 static double piston_edge_shift(const SbSealState *first, const SbSealState *inner) {
   // Friction displaces the contact of a solved ring on the return.
   return inner->contact_left - first->contact_left;
@@ -71,6 +76,12 @@ static bool piston_vent(double *low, double *high, const SbCycle *cycle) {
 // ---------------------------------------------------------------------------------------------------
 // Gaskets around the stem
 
+// The stem's surface.
+static double gasket_base_radius(const SbModel *model, const SbRingLoad *load) {
+  (void)load;
+  return model->bore_diameter / 2;
+}
+
 static double gasket_edge_shift(const SbSealState *first, const SbSealState *inner) {
   // The stem's shoulder comes from the right, and goes to the left.
   return first->contact_right - inner->contact_right;
@@ -132,7 +143,9 @@ static bool gasket_vent(double *low, double *high, const SbCycle *cycle) {
 
 static const SbValveType types[] = {
     [SB_VALVE_PISTON] = {.open_beyond = true,
+                         .drawn_over_edge = true,
                          .pressed_by = SB_P_GLAND_RADIAL_SPACE,
+                         .base_radius = piston_base_radius,
                          .edge_shift = piston_edge_shift,
                          .closes_as = piston_closes_as,
                          .port = piston_port,
@@ -145,6 +158,8 @@ static const SbValveType types[] = {
                          .layer_evaporates = true,
                          .drive_friction = true,
                          .pressed_by = SB_P_GASKET_CRIMP,
+                         .no_gland = "a gasket is clamped between plates, not in a gland",
+                         .base_radius = gasket_base_radius,
                          .edge_shift = gasket_edge_shift,
                          .closes_as = gasket_closes_as,
                          .port = sb_gasket_port_opens,

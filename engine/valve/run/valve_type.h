@@ -1,11 +1,12 @@
 // How the stem of a valve opens and closes the dose chamber: one row for each kind of valve
-// (valve.kind). Motion, dose and supply read the row. Plan, profiles and shapes still compare the
-// kind where a gasket's film or section differs from a ring's.
+// (valve.kind). Motion, dose, supply, plan and shapes read the row. What differs in the contacts of
+// its seals is in engine/valve/states/contact_law.h.
 //
 // Pure functions of their arguments, for any thread. s is the stem's displacement [m]; a direction
 // is SB_CYCLE_IN or SB_CYCLE_OUT.
 #pragma once
 
+#include "engine/contact/ring/ring.h"
 #include "engine/valve/run/cycle.h"
 
 // Where a stem is when it moves to another position.
@@ -35,8 +36,16 @@ typedef struct {
   // In quasi-static motion the frames have the friction of the drive's speed. Else of the stem's,
   // which a return spring makes slower.
   bool drive_friction;
+  // The inner seal is drawn in places over the land's edge, which deforms it on its chamfer. Else
+  // it is drawn without contact until the edge has passed it.
+  bool drawn_over_edge;
   // The input to change if the contact pressure is too low (SB_P_...).
   SbParamId pressed_by;
+  // Why the seals have no gland; NULL: they have one.
+  const char *no_gland;
+
+  // Returns the radius at which the heights of a drawn seal begin, which has `load` [m].
+  double (*base_radius)(const SbModel *model, const SbRingLoad *load);
 
   // Returns how far beyond bore.land_edge the edge reaches the inner contact `inner` [m]; `first`
   // is the contact at rest on the in-stroke.

@@ -3,7 +3,7 @@
 
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/film/squeeze.h"
-#include "engine/valve/states/sliding.h"
+#include "engine/valve/states/contact_law.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -104,7 +104,7 @@ static SbSealState off_by(const SbSealState *state, Off part, double times) {
 SbStatus sb_breakaway_squeeze_error(double *out, const SbModel *model, int seal,
                                     const SbSealState *state, const SbRoughLaw *known,
                                     SbReport *report) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(model)->shares;
   SbRoughLaw *law = coupled ? malloc(sizeof *law) : NULL;
   *out = 0;
   if (coupled && law == NULL) {
@@ -136,7 +136,7 @@ static SbDwellLaw law_of_ratio(const SbModel *model, const SbSealState *state) {
 
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report) {
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(model)->shares;
   const double kinetic = sb_sliding_friction(state);
   Contact contact = {
       .model = model,

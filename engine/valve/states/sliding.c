@@ -1,8 +1,6 @@
 // Joins fitment, film, surface and friction for one seal; see sliding.h for the equations.
 #include "engine/valve/states/sliding_private.h"
 
-#include "engine/contact/rough/greenwood_tripp.h"
-#include "engine/contact/rough/persson.h"
 #include "engine/valve/states/breakaway.h"
 
 #include <math.h>
@@ -108,8 +106,7 @@ bool sb_sliding_usable(SbStatus status) {
   return status == SB_OK || status == SB_ERROR_NOT_CONVERGED;
 }
 
-// Static friction after the dwell before the first stroke.
-static SbStatus set_static(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
+SbStatus sb_sliding_set_static(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   SbDwellLaw law;
   SbStatus status = sb_breakaway_law(&law, &out->squeeze_out_time, task->model, task->seal, out,
                                      sb_sliding_rough_law(task), report);
@@ -124,8 +121,7 @@ double sb_sliding_squeeze_error(const SbSealState *state, const SbSlidingTask *t
   return status == SB_OK ? error : NAN;
 }
 
-// Warns that the thesis' shear strength was determined with its own real area.
-static void strength_warning(const SbSlidingTask *task, double share) {
+void sb_sliding_warn_strength(const SbSlidingTask *task, double share) {
   const SbModel *model = task->model;
   const bool thesis = model->set == SB_MODEL_SET_THESIS;
   if (model->surface == SB_ROUGH_PERSSON && thesis &&
@@ -138,41 +134,7 @@ static void strength_warning(const SbSlidingTask *task, double share) {
   }
 }
 
-// Takes the asperities' results from a film. Lengths are divided by the contact width of the
-// half-plane, or of the fitted body; forces are those of the fitted circumference.
-static void take_asperities(SbSealState *out, const SbModel *model, const SbFilm *film,
-                            bool fitted) {
-  const double fit_width = out->contact_right - out->contact_left;
-  const double width = fitted ? fit_width : 2 * film->hertz_half_width;
-  const double area = fit_width * model->bore_circumference;
-  out->lambda = film->film_ratio;
-  out->real_area_share = fmin(film->real_area / width, 1);
-  out->asperity_share = film->asperity_share;
-  out->boundary_area = model->shear_strength * out->real_area_share * area;
-  out->boundary_load =
-      model->load_coefficient * film->asperity_load * out->load / out->load_per_length;
-  out->friction_viscous = fabs(film->friction_couette + film->friction_cavity) / width * area;
-}
-
-// Solves the dry rough contact of a coupled state at rest. It remains valid as long as the fit
-// does.
-static SbStatus solve_rest(const SbSlidingTask *task, const SbSealState *out, SbReport *report) {
-  SbSlidingMemory *memory = task->memory;
-  if (memory->rested && memory->rest_on == memory->now &&
-      memory->rest_left == task->pressure.left) {
-    return sb_succeed(report);
-  }
-  SbStatus status = sb_sliding_solve_rough(task, &memory->rest, out->load_net, 0, report);
-  if (sb_sliding_usable(status)) {
-    memory->rested = status == SB_OK;
-    memory->rest_left = task->pressure.left;
-    memory->rest_on = memory->now;
-  }
-  return status;
-}
-
-// Sets static_error from the errors of real area at rest, width and load.
-static void set_static_error(SbSealState *out) {
+void sb_sliding_set_static_error(SbSealState *out) {
   const double area = out->rest_area * (out->rest_error + out->width_error);
   const double level = out->rest_area + out->rest_load;
   out->static_error =
@@ -185,163 +147,6 @@ void sb_sliding_kinetic_errors(SbSealState *out, double borne) {
                         out->boundary_load * (out->load_error + borne);
   out->viscous_error = out->friction_viscous * (film + out->width_error);
   out->friction_error = out->boundary_error + out->viscous_error;
-}
-
-// Takes the results of that contact, and static friction.
-static SbStatus take_rest(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
-  const SbSlidingMemory *memory = task->memory;
-  const SbFilm *rest = &memory->rest.film;
-  if (memory->rested || rest->film_central > 0) {
-    SbSealState dry = *out;
-    take_asperities(&dry, task->model, rest, memory->rest.fitted);
-    out->rest_area_share = dry.real_area_share;
-    out->rest_area = dry.boundary_area;
-    out->rest_load = dry.boundary_load;
-    strength_warning(task, out->rest_area_share);
-  }
-  SbStatus status = set_static(out, task, report);
-  // Real area is in proportion to the mean pressure of the solid at most.
-  out->rest_error = rest->solver.error_contact + out->net_error + out->width_error;
-  set_static_error(out);
-  out->static_error += rest->solver.error_contact * out->rest_load;
-  return status;
-}
-
-// Sets the errors of a state whose film has its asperities, from those of its contact and loads.
-static void set_coupled_errors(SbSealState *out, const SbSlidingMemory *memory) {
-  const SbSlidingSolved *last = memory->last;
-  const SbFit *fit = &memory->now->fit;
-  const double contact = last->film.solver.error_contact;
-  // The surface on which a solid section's film was solved moves that film, and with it the load
-  // that the film leaves to the asperities.
-  const bool section = last->fitted && sb_fit_kind(fit->model)->section;
-  const double surface = section ? sb_sliding_surface_error(out, last, fit) : 0;
-  out->share_error = contact + out->net_error + out->width_error + surface;
-  out->area_error = contact + out->net_error + out->width_error;
-  sb_sliding_kinetic_errors(out, contact);
-}
-
-// Film, rough contact and friction from one solution each, sliding and at rest.
-static SbStatus solve_coupled(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
-  SbSlidingMemory *memory = task->memory;
-  const bool slides = sb_sliding_has_film(task), rests = !(slides && memory->rest_waits);
-  SbStatus at_rest = rests ? solve_rest(task, out, report) : SB_OK;
-  if (!sb_sliding_usable(at_rest)) {
-    return at_rest;
-  }
-  memory->last = &memory->rest;
-  SbStatus status = at_rest;
-  if (slides) {
-    memory->last = &memory->plane;
-    status = sb_sliding_solve_rough(task, &memory->plane, out->load_net, task->speed,
-                                    at_rest == SB_OK ? report : NULL);
-    if (!sb_sliding_usable(status)) {
-      return status;
-    }
-  }
-  const SbFilm *film = &memory->last->film;
-  sb_warnings_merge(task->warnings, &film->warnings);
-  if (sb_sliding_read_film(out, memory->last, status, &memory->now->fit)) {
-    take_asperities(out, task->model, film, memory->last->fitted);
-  }
-  if (rests) {
-    SbStatus aged = take_rest(out, task, status == SB_OK && at_rest == SB_OK ? report : NULL);
-    if (aged != SB_OK) {
-      return aged;
-    }
-  }
-  set_coupled_errors(out, memory);
-  return status != SB_OK ? status : at_rest;
-}
-
-// Fraction of the area in real contact, sliding and at rest. Greenwood and Tripp's depends on the
-// film, Persson's on the net pressure that the solids carry.
-static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double roughness,
-                          SbReport *report) {
-  const SbModel *model = task->model;
-  const SbRoughSurface surface = sb_model_surface(model, task->seal, roughness);
-  if (model->surface == SB_ROUGH_PERSSON) {
-    SbSpectrum spectrum;
-    SbStatus status = sb_spectrum_from_asperities(&spectrum, surface.sigma, surface.sigma_over_beta,
-                                                  surface.product, report);
-    if (status != SB_OK) {
-      return status;
-    }
-    double pressure = fmax(out->load_net, 0) / (out->contact_right - out->contact_left);
-    out->real_area_share = out->rest_area_share =
-        sb_persson_area_share(&spectrum, spectrum.q1, surface.modulus, pressure);
-    const double error = out->net_error + out->width_error;
-    if (error > 0) {
-      const double other =
-          sb_persson_area_share(&spectrum, spectrum.q1, surface.modulus, pressure * (1 + error));
-      out->area_error = out->rest_error = fabs(other / out->real_area_share - 1);
-    }
-    strength_warning(task, out->real_area_share);
-    return SB_OK;
-  }
-  if (surface.work > 0) {
-    const SbAsperity tip = sb_rough_tip(&surface);
-    sb_asperity_warn(task->warnings, &tip);
-  }
-  out->rest_area_share = sb_rough_area_share(&surface, 0);
-  // Without a film there is no real contact under it either.
-  out->real_area_share = sb_rough_area_share(&surface, out->lambda);
-  if (out->central_error > 0) {
-    const double thinner = sb_rough_area_share(&surface, out->lambda * (1 - out->central_error));
-    out->area_error = fabs(thinner / out->real_area_share - 1);
-  }
-  if (isnan(out->real_area_share) && !isnan(out->lambda)) {
-    return sb_fail(report, SB_ERROR_RANGE, "no asperity contact of the %s seal at λ = %g",
-                   sb_seal_name(task->seal), out->lambda);
-  }
-  if (out->real_area_share > 0.3) {
-    sb_warn(
-        task->warnings, "real-area-large", SB_FILM_IN_ASPERITY_PRODUCT,
-        "asperities of the %s seal touch on %.0f %% of the area: Greenwood and Tripp's asperities "
-        "are no longer independent",
-        sb_seal_name(task->seal), 100 * out->real_area_share);
-  }
-  return SB_OK;
-}
-
-// Computes real area and kinetic friction of a sliding contact whose load, width and film are
-// known.
-static SbStatus rub(SbSealState *out, const SbSlidingTask *task, double roughness,
-                    SbReport *report) {
-  const SbModel *model = task->model;
-  double area = (out->contact_right - out->contact_left) * model->bore_circumference;
-  out->lambda = out->film_central / (roughness * model->sigma);
-  SbStatus status = real_area(out, task, roughness, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  out->boundary_area = model->shear_strength * out->real_area_share * area;
-  out->boundary_load = model->load_coefficient * out->load;
-  out->friction_viscous = 0;
-  if (task->speed != 0 && out->film_central != 0) {
-    // fmin() would take a film that was not computed for the greatest shear.
-    double shear = model->viscosity * fabs(task->speed) / out->film_central;
-    shear = shear > model->shear_strength ? model->shear_strength : shear;
-    out->friction_viscous = shear * (1 - out->real_area_share) * area;
-  }
-  sb_sliding_kinetic_errors(out, 0);
-  return SB_OK;
-}
-
-// Does the same, and computes the values at rest.
-SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
-                                  SbReport *report) {
-  const SbModel *model = task->model;
-  SbStatus status = rub(out, task, roughness, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  out->rest_area = model->shear_strength * out->rest_area_share *
-                   (out->contact_right - out->contact_left) * model->bore_circumference;
-  out->rest_load = out->boundary_load;
-  status = set_static(out, task, report);
-  set_static_error(out);
-  return status;
 }
 
 // Reduces a law's kinetic friction to what the section carries. Where the pressure limits the shear
@@ -381,7 +186,7 @@ SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbRep
   out->rest_area *= out->area_cut; // the pressure limits it as well
   share_kinetic(out);
   if (out->section == SB_RING_SLIDES) {
-    return set_static(out, task, report);
+    return sb_sliding_set_static(out, task, report);
   }
   out->rest_area = out->boundary_area;
   out->rest_load = out->boundary_load;
@@ -394,10 +199,8 @@ static const char *about(int seal) {
   return seal == SB_OUTER ? "outer seal" : "inner seal";
 }
 
-// A film that cannot be, because the fluid opens the contact, is a result, not a failure. Otherwise
-// passes on the report.
-static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbReport *own, int seal,
-                                SbWarnings *warnings, SbReport *report) {
+SbStatus sb_sliding_opened_by_fluid(SbSealState *out, SbStatus status, const SbReport *own,
+                                    int seal, SbWarnings *warnings, SbReport *report) {
   if (status == SB_OK || own->cause != SB_CAUSE_FLUID_OPENS) {
     if (status != SB_OK && report != NULL) {
       *report = *own;
@@ -412,85 +215,39 @@ static SbStatus opened_by_fluid(SbSealState *out, SbStatus status, const SbRepor
 }
 
 SbStatus sb_sliding_rest(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
-  if (task->model->asperities != SB_MODEL_ASPERITIES_COUPLED || !(out->load_net > 0) ||
-      task->model->kind == SB_VALVE_GASKET || out->opened || !sb_sliding_has_film(task)) {
+  const SbContactLaw *law = sb_contact_law(task->model);
+  if (law->rest == NULL || !(out->load_net > 0) || out->opened || !sb_sliding_has_film(task)) {
     return SB_OK;
   }
   SbReport own = {0};
-  SbStatus at_rest = solve_rest(task, out, &own);
-  SbStatus status =
-      sb_sliding_usable(at_rest) ? take_rest(out, task, at_rest == SB_OK ? &own : NULL) : at_rest;
-  status = status == SB_OK ? at_rest : status;
-  return opened_by_fluid(out, status, &own, task->seal, task->warnings, report);
+  SbStatus status = law->rest(out, task, &own);
+  return sb_sliding_opened_by_fluid(out, status, &own, task->seal, task->warnings, report);
 }
 
 void sb_sliding_set_film(SbSealState *state, const SbSlidingTask *task, const SbFilm *film,
                          bool fitted, double roughness) {
+  const SbContactLaw *law = sb_contact_law(task->model);
   state->film_min = film->film_min;
   state->film_central = film->film_central;
-  if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-    take_asperities(state, task->model, film, fitted);
+  if (law->take != NULL) {
+    law->take(state, task->model, film, fitted);
   }
   (void)sb_sliding_refilm(state, task, roughness, NULL);
 }
 
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
                             const SbSlidingBody *body, SbReport *report) {
-  const SbModel *model = task->model;
-  SbSlidingMemory *memory = task->memory;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  if (model->kind == SB_VALVE_GASKET) {
-    memory->last = &memory->plane;
-    sb_sliding_edge_film(state, task);
-    return sb_sliding_refilm(state, task, 1, report);
-  }
-  SbFilmProblem problem;
-  sb_sliding_film_of(&problem, state, task, body);
-  const bool solved = sb_film_kind(problem.model)->coupled;
-  SbSlidingSolved *on = body != NULL ? &memory->fitted : &memory->plane;
-  memory->last = on;
-  memory->near = true;
-  SbStatus status = sb_sliding_solve_on(task, on, &problem, report);
-  memory->near = false;
-  if (!sb_sliding_usable(status) || !(on->film.film_central > 0)) {
-    return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no film");
-  }
-  const double error = state->film_error, central = state->central_error;
-  sb_sliding_read_film(state, on, status, &memory->now->fit);
-  state->film_error = error;
-  state->central_error = central;
-  if (!solved) {
-    sb_sliding_limit_law(state, task);
-  }
-  if (coupled) {
-    take_asperities(state, model, &on->film, on->fitted);
-  }
-  SbStatus rubbed = sb_sliding_refilm(state, task, 1, report);
-  return rubbed != SB_OK ? rubbed : status;
+  return sb_contact_law(task->model)->respeed(state, task, body, report);
 }
 
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report) {
-  const SbModel *model = task->model;
   // The state at rest has no film either, whatever the speed.
   const SbSealState rest = *state;
-  if (model->kind == SB_VALVE_GASKET) {
-    SbStatus edges = sb_sliding_edge_contact(state, task, roughness, report);
-    state->rest_area_share = rest.rest_area_share;
-    state->rest_area = rest.rest_area;
-    state->rest_load = rest.rest_load;
-    share_kinetic(state);
-    return edges;
-  }
-  if (model->asperities == SB_MODEL_ASPERITIES_COUPLED) {
-    state->lambda = state->film_central / model->sigma;
-    state->boundary_area = model->shear_strength * state->real_area_share *
-                           (state->contact_right - state->contact_left) * model->bore_circumference;
-    share_kinetic(state);
-    return sb_succeed(report);
-  }
-  SbStatus status = rub(state, task, roughness, report);
+  SbStatus status = sb_contact_law(task->model)->refilm(state, task, roughness, report);
   state->rest_area_share = rest.rest_area_share;
+  state->rest_area = rest.rest_area;
+  state->rest_load = rest.rest_load;
   share_kinetic(state);
   return status;
 }
@@ -498,14 +255,9 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report) {
   sb_warn_about(task->warnings, about(task->seal));
-  SbStatus status = SB_OK;
-  if (state->touches && task->model->kind == SB_VALVE_GASKET) {
-    status = sb_sliding_edge_contact(state, task, roughness, report);
-    status = status == SB_OK ? set_static(state, task, report) : status;
-    set_static_error(state);
-  } else if (state->touches) {
-    status = sb_sliding_rough_contact(state, task, roughness, report);
-  }
+  SbStatus status = state->touches
+                        ? sb_contact_law(task->model)->resurface(state, task, roughness, report)
+                        : SB_OK;
   status = status == SB_OK ? sb_sliding_share_out(state, task, report) : status;
   sb_warn_about(task->warnings, NULL);
   return status;
@@ -527,89 +279,25 @@ void sb_sliding_clear(SbSealState *out) {
 #include "engine/valve/figures/figures.def"
 }
 
-// Film and rough contact of a gasket.
-static SbStatus solve_edges(const SbSlidingTask *task, SbSealState *out, SbReport *report) {
-  sb_sliding_edge_film(out, task);
-  SbStatus status = sb_sliding_edge_contact(out, task, 1, report);
-  status = status == SB_OK ? set_static(out, task, report) : status;
-  set_static_error(out);
-  return status;
-}
-
 SbStatus sb_sliding_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
   SbSlidingTask quiet = *task;
   quiet.warnings = NULL;
-  const SbModel *model = task->model;
-  const SbSlidingMemory *memory = task->memory;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0;
-  sb_sliding_net_error(out, task, &memory->now->fit);
-  if (model->kind == SB_VALVE_GASKET && out->load_net > 0) {
-    return solve_edges(&quiet, out, report);
-  }
-  if (out->film_central > 0 && (coupled || sb_film_kind(model->film)->coupled)) {
-    sb_sliding_film_errors(out, memory->last, &memory->now->fit);
-  } else if (out->film_central > 0) {
-    sb_sliding_law_errors(out);
-  }
-  if (coupled) {
-    set_coupled_errors(out, memory);
-    return SB_OK;
-  }
-  return sb_sliding_rough_contact(out, &quiet, 1, report);
+  sb_sliding_net_error(out, task, &task->memory->now->fit);
+  return sb_contact_law_of(task->model, out)->update_errors(out, &quiet, report);
 }
 
 // Fitment, film and friction; a ring dragged as given, else as it is known.
 SbStatus sb_sliding_solve_once(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,
                                SbReport *report) {
-  SbWarnings *warnings = task->warnings;
-  int seal = task->seal;
   bool known;
   SbStatus status = sb_sliding_fit_contact(task, law, out, &known, report);
   if (!known) {
     return status;
   }
-  SbReport own = {0};
-  SbReport *first = status == SB_OK ? report : NULL; // the first failure is reported
-  if (task->model->kind == SB_VALVE_GASKET && out->load_net > 0) {
-    sb_sliding_set_edges(out, &task->memory->now->fit);
-    task->memory->last = &task->memory->plane; // which has none
-    SbStatus edges = solve_edges(task, out, first);
-    return edges != SB_OK ? edges : status;
-  }
-  if (task->model->asperities == SB_MODEL_ASPERITIES_COUPLED && out->load_net > 0) {
-    SbStatus coupled = solve_coupled(task, out, &own);
-    coupled = opened_by_fluid(out, coupled, &own, seal, warnings, first);
-    return coupled != SB_OK ? coupled : status;
-  }
-
-  // Film, only when sliding on a liquid.
-  if (!sb_sliding_has_film(task)) {
-    out->film_min = out->film_central = out->layer = 0;
-  } else if (out->load_net <= 0) {
-    out->opened = true;
-    sb_warn(warnings, "film-no-net-load", sb_input(SB_P_CANISTER_PRESSURE),
-            "the fluid alone carries the %s seal: no film law applies", sb_seal_name(seal));
-  } else {
-    SbStatus film = sb_sliding_solve_film(task, out, &own);
-    film = opened_by_fluid(out, film, &own, seal, warnings, first);
-    if (!sb_sliding_usable(film)) {
-      return film;
-    }
-    status = film != SB_OK ? film : status;
-  }
-
-  SbStatus area_status = sb_sliding_rough_contact(out, task, 1, status == SB_OK ? report : NULL);
-  if (area_status != SB_OK) {
-    return area_status;
-  }
-
-  // Regime and validity.
-  if (task->speed != 0 && out->film_central > 0 && out->lambda < 1) {
-    sb_warn(warnings, "boundary-regime", sb_input(SB_P_SURFACE_SIGMA),
-            "λ = %.2g at the %s seal: boundary regime, the film is thinner than the roughness",
-            out->lambda, sb_seal_name(seal));
-  }
-  return status;
+  // The first failure is reported.
+  SbStatus own =
+      sb_contact_law_of(task->model, out)->solve(out, task, status == SB_OK ? report : NULL);
+  return own != SB_OK ? own : status;
 }
 
 SbStatus sb_sliding_solve_with(const SbSlidingTask *task, const SbSlidingLaw *law, SbSealState *out,

@@ -500,8 +500,7 @@ static Anchor *anchor_of(SbSlidingSlopes *slopes, const SbSlidingTask *task,
 SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
                         SbSlidingSlopes *slopes) {
   SbSlidingMemory *memory = task->memory;
-  const bool coupled = task->model->asperities == SB_MODEL_ASPERITIES_COUPLED;
-  const int inputs = coupled ? INPUTS : ROUGH;
+  const int inputs = sb_contact_law(task->model)->shares ? INPUTS : ROUGH;
   SbSlidingTask read = *task;
   SbSlidingLaw by = law != NULL ? *law : (SbSlidingLaw){0};
   double z[INPUTS];

@@ -280,7 +280,6 @@ bool sb_sliding_has_film(const SbSlidingTask *task) {
 // Warns of options that have no effect with this model.
 static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *problem) {
   const SbModel *model = task->model;
-  bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
   bool asked =
       model->pressure_viscosity > 0 || model->eyring_stress > 0 || model->rupture_pressure != 0;
   if (asked && !sb_film_kind(problem->model)->coupled) {
@@ -294,7 +293,7 @@ static void option_warnings(const SbSlidingTask *task, const SbFilmProblem *prob
             sb_seal_name(task->seal), 1e-6 * problem->rupture_pressure,
             1e-6 * model->rupture_pressure);
   }
-  if (model->hamaker > 0 && !coupled) {
+  if (model->hamaker > 0 && !sb_contact_law(model)->shares) {
     sb_warn(task->warnings, "adhesion-beside", sb_input(SB_P_MODELS_ADHESION),
             "adhesion acts in the solve of film and asperities together only (models.asperities = "
             "coupled): left out here");
@@ -360,7 +359,7 @@ const SbRoughLaw *sb_sliding_rough_law(const SbSlidingTask *task) {
   const SbModel *model = task->model;
   SbSlidingMemory *memory = task->memory;
   const SbRoughSurface surface = sb_model_surface(model, task->seal, 1);
-  if (model->asperities != SB_MODEL_ASPERITIES_COUPLED || surface.model == SB_ROUGH_NONE ||
+  if (!sb_contact_law(model)->shares || surface.model == SB_ROUGH_NONE ||
       surface.work > 0) { // tips that stick have their own
     return NULL;
   }
@@ -408,7 +407,7 @@ SbStatus sb_sliding_solve_rough(const SbSlidingTask *task, SbSlidingSolved *out,
 void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSlidingTask *task,
                         const SbSlidingBody *body) {
   const SbModel *model = task->model;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(model)->shares;
   sb_sliding_film_problem(out, model, task->seal, task->pressure, state->load_net, task->speed);
   out->model = coupled ? SB_FILM_REYNOLDS : model->film;
   const bool solved = sb_film_kind(out->model)->coupled;
@@ -419,6 +418,35 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
   if (body != NULL) {
     lay_on(out, body);
   }
+}
+
+SbStatus sb_ring_respeed(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,
+                         SbReport *report) {
+  const SbContactLaw *law = sb_contact_law(task->model);
+  SbSlidingMemory *memory = task->memory;
+  SbFilmProblem problem;
+  sb_sliding_film_of(&problem, state, task, body);
+  const bool solved = sb_film_kind(problem.model)->coupled;
+  SbSlidingSolved *on = body != NULL ? &memory->fitted : &memory->plane;
+  memory->last = on;
+  memory->near = true;
+  SbStatus status = sb_sliding_solve_on(task, on, &problem, report);
+  memory->near = false;
+  if (!sb_sliding_usable(status) || !(on->film.film_central > 0)) {
+    return status != SB_OK ? status : sb_fail(report, SB_ERROR_NOT_CONVERGED, "no film");
+  }
+  const double error = state->film_error, central = state->central_error;
+  sb_sliding_read_film(state, on, status, &memory->now->fit);
+  state->film_error = error;
+  state->central_error = central;
+  if (!solved) {
+    sb_sliding_limit_law(state, task);
+  }
+  if (law->take != NULL) {
+    law->take(state, task->model, &on->film, on->fitted);
+  }
+  SbStatus rubbed = sb_sliding_refilm(state, task, 1, report);
+  return rubbed != SB_OK ? rubbed : status;
 }
 
 // Does the same for a film in which asperities carry most of the load, which no law describes: from

@@ -127,8 +127,7 @@ static void fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlid
   problem->cancel_data = memory;
   // A ring at rest has no film, except with coupled asperities.
   const bool film = sb_film_kind(model->film)->coupled && (task->speed != 0 || !is_ring(task));
-  problem->surface_wanted =
-      !memory->bare && (film || model->asperities == SB_MODEL_ASPERITIES_COUPLED);
+  problem->surface_wanted = !memory->bare && (film || sb_contact_law(model)->shares);
   problem->kept = &on->ring;
   if (law != NULL) {
     on->law = *law;
@@ -545,23 +544,16 @@ static SbStatus drag_beside(const SbSlidingTask *task, SbSlidingFitment *on,
   }
 }
 
-// Reports that a section bears less than its friction.
-static void warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state) {
-  const char *seal = sb_seal_name(task->seal);
-  const char *way =
-      sb_model_way(task->model) * task->speed > 0 ? "on the in-stroke" : "on the return";
+const char *sb_sliding_stroke(const SbSlidingTask *task) {
+  return sb_model_way(task->model) * task->speed > 0 ? "on the in-stroke" : "on the return";
+}
+
+void sb_ring_warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state) {
   const bool rolls = state->section == SB_RING_ROLLS;
-  if (task->model->kind == SB_VALVE_GASKET) {
-    sb_warn(
-        warnings, "gasket-detaches", sb_input(SB_P_FRICTION_SHEAR_STRENGTH),
-        "the friction of the %s gasket %s exceeds half of its pressure, where the surface of the "
-        "rubber folds and no steady contact was found: the gasket carries %.0f %% of that friction",
-        seal, way, 100 * state->borne_share);
-  } else {
-    sb_warn(warnings, rolls ? "ring-rolls" : "ring-jams", SB_CONTACT_IN_FLOOR_FRICTION,
-            "the %s ring %s %s: its section carries %.0f %% of its friction, turned by %.0f°", seal,
-            rolls ? "rolls" : "jams", way, 100 * state->borne_share, state->rotation);
-  }
+  sb_warn(warnings, rolls ? "ring-rolls" : "ring-jams", SB_CONTACT_IN_FLOOR_FRICTION,
+          "the %s ring %s %s: its section carries %.0f %% of its friction, turned by %.0f°",
+          sb_seal_name(task->seal), rolls ? "rolls" : "jams", sb_sliding_stroke(task),
+          100 * state->borne_share, state->rotation);
 }
 
 // Solves a round of a drag: the ring dragged by `law` (NULL: as it is known) and its film. *like is
@@ -612,9 +604,7 @@ static bool judge_round(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingF
 // estimates the error of the friction and reduces the friction to what the section carries.
 static SbStatus end_drag(SbSealState *out, const SbSlidingTask *task, SbSlidingFitment *on,
                          const RoundEnd *end, SbStatus status, SbReport *report) {
-  // Of the friction at which a gasket detaches: its path ends at 0.50 to 0.66 of the pressure,
-  // depending on the mesh (the default gasket with a shear strength of 5.85 MPa).
-  static const double DETACHED_SCATTER = 0.25;
+  const SbContactLaw *law = sb_contact_law(task->model);
   const bool slides = on->fit.ring.state == SB_RING_SLIDES;
   const double apart = fabs(end->asked - end->before); // both 0 without friction
   SbStatus next =
@@ -628,9 +618,10 @@ static SbStatus end_drag(SbSealState *out, const SbSlidingTask *task, SbSlidingF
   }
   status = status == SB_OK ? next : status;
   next = bear(out, task, on, &end->law, status == SB_OK ? report : NULL);
-  if (!slides && task->model->kind == SB_VALVE_GASKET) {
-    // Its film, a closed form, has no error.
-    out->friction_error = fmax(out->friction_error, 0) + DETACHED_SCATTER * fabs(on->fit.ring.drag);
+  if (!slides && law->detached_scatter > 0) {
+    // A film that is a closed form has no error.
+    out->friction_error =
+        fmax(out->friction_error, 0) + law->detached_scatter * fabs(on->fit.ring.drag);
   }
   status = next != SB_OK ? next : status;
   if (!end->agrees) {
@@ -639,7 +630,7 @@ static SbStatus end_drag(SbSealState *out, const SbSlidingTask *task, SbSlidingF
                    sb_seal_name(task->seal), end->before, end->asked);
   }
   if (!slides) {
-    warn_limit(task->warnings, task, out);
+    law->warn_limit(task->warnings, task, out);
   }
   return status;
 }

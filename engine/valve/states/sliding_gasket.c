@@ -27,7 +27,8 @@ static double angle_of(int i) {
   return M_PI * i / LAST;
 }
 
-void sb_sliding_set_edges(SbSealState *out, const SbFit *fit) {
+// Sets edge_pressure of a state from its fit.
+static void set_edges(SbSealState *out, const SbFit *fit) {
   const double middle = (fit->contact_left + fit->contact_right) / 2, half = fit->contact_width / 2;
   size_t at = 0;
   for (int i = 0; i < POINTS; i++) {
@@ -138,7 +139,8 @@ static Rough rough_at(const SbSealState *state, const SbModel *model, const SbRo
   return sum;
 }
 
-void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task) {
+// Computes the film of a state whose edge_pressure is set, at the task's speed.
+static void edge_film(SbSealState *out, const SbSlidingTask *task) {
   const SbModel *model = task->model;
   double film = 0, least = 0;
   if (sb_sliding_has_film(task)) {
@@ -188,8 +190,8 @@ static void set_rough_errors(SbSealState *out, const SbModel *model, const SbRou
   }
 }
 
-SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
-                                 SbReport *report) {
+SbStatus sb_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                         SbReport *report) {
   const SbModel *model = task->model;
   const double width = out->contact_right - out->contact_left;
   const double around = model->bore_circumference, speed = task->speed;
@@ -214,7 +216,7 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
   out->boundary_area = model->shear_strength * out->real_area_share * width * around;
   out->rest_area = model->shear_strength * out->rest_area_share * width * around;
   out->rest_load = model->load_coefficient * out->load;
-  const bool coupled = model->asperities == SB_MODEL_ASPERITIES_COUPLED;
+  const bool coupled = sb_contact_law(model)->shares;
   out->boundary_load = out->rest_load * (coupled && slides ? out->asperity_share : 1);
   out->friction_viscous = slides ? on.shear * around : 0;
   sb_sliding_kinetic_errors(out, coupled && slides ? out->net_error : 0);
@@ -225,4 +227,45 @@ SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, do
             1e9 * film, sb_seal_name(task->seal));
   }
   return SB_OK;
+}
+
+SbStatus sb_edge_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
+                           SbReport *report) {
+  SbStatus status = sb_edge_contact(state, task, roughness, report);
+  status = status == SB_OK ? sb_sliding_set_static(state, task, report) : status;
+  sb_sliding_set_static_error(state);
+  return status;
+}
+
+SbStatus sb_edge_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
+  edge_film(out, task);
+  return sb_edge_resurface(out, task, 1, report);
+}
+
+SbStatus sb_edge_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report) {
+  set_edges(out, &task->memory->now->fit);
+  task->memory->last = &task->memory->plane; // which has none
+  return sb_edge_update_errors(out, task, report);
+}
+
+SbStatus sb_edge_respeed(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,
+                         SbReport *report) {
+  (void)body; // its film is that of its edge
+  task->memory->last = &task->memory->plane;
+  edge_film(state, task);
+  return sb_sliding_refilm(state, task, 1, report);
+}
+
+void sb_edge_warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state) {
+  sb_warn(
+      warnings, "gasket-detaches", sb_input(SB_P_FRICTION_SHEAR_STRENGTH),
+      "the friction of the %s gasket %s exceeds half of its pressure, where the surface of the "
+      "rubber folds and no steady contact was found: the gasket carries %.0f %% of that friction",
+      sb_seal_name(task->seal), sb_sliding_stroke(task), 100 * state->borne_share);
+}
+
+// The edge is a quarter of a circle.
+double sb_edge_dry_gap(const SbModel *model, int seal, double over, double half) {
+  (void)seal;
+  return pow((over - 1) * half, 2) / (2 * model->profile_corner_radius);
 }

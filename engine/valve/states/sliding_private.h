@@ -20,7 +20,7 @@
 // error it is unspecified.
 #pragma once
 
-#include "engine/valve/states/sliding.h"
+#include "engine/valve/states/contact_law.h"
 
 // A solved film, with its profile.
 typedef struct {
@@ -256,11 +256,6 @@ void sb_sliding_kinetic_errors(SbSealState *out, double borne);
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
                              const SbFilmProblem *problem, SbReport *report);
 
-// Computes lambda, real area and friction (kinetic and static) of a state whose load, width and
-// film are set, for a surface `roughness` times as rough as the model's.
-SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
-                                  SbReport *report);
-
 // Multiplies the friction of a dragged ring by the fractions that its section carries, borne_share
 // and area_cut, which must be set; NaN: does nothing.
 SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report);
@@ -269,15 +264,100 @@ SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbRep
 // ring is that of its own film.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report);
 
-// ---- A gasket (sliding_gasket.c)
+// ---- Steps of several rows
 
-// Sets edge_pressure of a state from its fit.
-void sb_sliding_set_edges(SbSealState *out, const SbFit *fit);
+// Sets squeeze_out_time and friction_static (NaN after an error) after the dwell before the first
+// stroke, of a state whose values at rest are set.
+SbStatus sb_sliding_set_static(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
-// Computes the film of a gasket's state, whose edge_pressure is set, at the task's speed.
-void sb_sliding_edge_film(SbSealState *out, const SbSlidingTask *task);
+// Sets static_error from the errors of real area at rest, width and load.
+void sb_sliding_set_static_error(SbSealState *out);
 
-// Computes real area, kinetic friction and the dry contact (without static friction) of a gasket's
-// state under its film, for a surface `roughness` times as rough as the model's.
-SbStatus sb_sliding_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
-                                 SbReport *report);
+// Warns that the default shear strength was determined with another model of the surface, which has
+// a smaller real area than `share`.
+void sb_sliding_warn_strength(const SbSlidingTask *task, double share);
+
+// Handles the `status` of a film, with its report `own`. A film that cannot exist because the fluid
+// opens the contact is a result: sets out->opened, warns and returns SB_OK. Otherwise returns
+// `status`, after an error with *report = *own.
+SbStatus sb_sliding_opened_by_fluid(SbSealState *out, SbStatus status, const SbReport *own,
+                                    int seal, SbWarnings *warnings, SbReport *report);
+
+// Returns "on the in-stroke" or "on the return", by the task's speed; static.
+const char *sb_sliding_stroke(const SbSlidingTask *task);
+
+// ---- Functions of rows (contact_law.h), with the comments of its members. sb_ring_...: both rows
+// of rings; sb_separate_... (sliding_separate.c) and sb_coupled_... (sliding_coupled.c): one of
+// them; sb_edge_...: gaskets (sliding_gasket.c).
+
+// SbContactLaw.respeed.
+SbStatus sb_ring_respeed(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,
+                         SbReport *report);
+
+// SbContactLaw.warn_limit.
+void sb_ring_warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state);
+
+// SbContactLaw.dry_gap.
+double sb_ring_dry_gap(const SbModel *model, int seal, double over, double half);
+
+// SbContactLaw.solve.
+SbStatus sb_separate_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.update_errors.
+SbStatus sb_separate_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.refilm. Computes lambda, real area and kinetic friction of a state whose load, width
+// and film are set, for a surface `roughness` times as rough as the model's.
+SbStatus sb_sliding_rub(SbSealState *out, const SbSlidingTask *task, double roughness,
+                        SbReport *report);
+
+// SbContactLaw.resurface. Does the same as sb_sliding_rub(), and computes the values at rest and
+// static friction.
+SbStatus sb_sliding_rough_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                                  SbReport *report);
+
+// SbContactLaw.solve.
+SbStatus sb_coupled_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.rest.
+SbStatus sb_coupled_rest(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.take.
+void sb_coupled_take(SbSealState *out, const SbModel *model, const SbFilm *film, bool fitted);
+
+// SbContactLaw.refilm; `roughness` must be 1.
+SbStatus sb_coupled_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
+                           SbReport *report);
+
+// SbContactLaw.update_errors.
+SbStatus sb_coupled_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.detached_scatter, of the friction at which a gasket detaches: its path ends at 0.50
+// to 0.66 of the pressure, depending on the mesh (the default gasket with a shear strength of 5.85
+// MPa).
+#define SB_EDGE_DETACHED_SCATTER 0.25
+
+// SbContactLaw.solve.
+SbStatus sb_edge_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.respeed.
+SbStatus sb_edge_respeed(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,
+                         SbReport *report);
+
+// SbContactLaw.refilm. Computes real area, kinetic friction and the dry contact (without static
+// friction) under the state's film.
+SbStatus sb_edge_contact(SbSealState *out, const SbSlidingTask *task, double roughness,
+                         SbReport *report);
+
+// SbContactLaw.resurface.
+SbStatus sb_edge_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
+                           SbReport *report);
+
+// SbContactLaw.update_errors.
+SbStatus sb_edge_update_errors(SbSealState *out, const SbSlidingTask *task, SbReport *report);
+
+// SbContactLaw.warn_limit.
+void sb_edge_warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state);
+
+// SbContactLaw.dry_gap.
+double sb_edge_dry_gap(const SbModel *model, int seal, double over, double half);

@@ -1,5 +1,5 @@
 // Problems of the solvers of fit and film for a seal; see sliding.h.
-#include "engine/valve/states/sliding.h"
+#include "engine/valve/states/contact_law.h"
 
 #include <math.h>
 
@@ -32,7 +32,7 @@ void sb_model_fit_problem(SbFitProblem *out, const SbModel *model, int seal, dou
       .floor_friction = model->floor_friction,
       .wall_friction = model->wall_friction,
       .start_at_wall = model->start_at_wall,
-      .gasket = model->kind == SB_VALVE_GASKET,
+      .gasket = sb_contact_law(model)->around_stem,
       .pressure = pressure,
       .tolerance = model->tolerance,
   };

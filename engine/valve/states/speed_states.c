@@ -2,6 +2,8 @@
 // decades.
 #include "engine/valve/states/speed_states.h"
 
+#include "engine/valve/states/contact_law.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -17,9 +19,8 @@ static double speed_of(int place) {
   return SB_SPEED_MOST * pow(10, decades * ((double)place / GRID - WIDE));
 }
 
-static bool is_coupled(const SbSpeedStates *states) {
-  const SbModel *model = states->task.model; // a gasket's friction depends on its film too
-  return model->asperities == SB_MODEL_ASPERITIES_COUPLED || model->kind == SB_VALVE_GASKET;
+static const SbContactLaw *law_of(const SbSpeedStates *states) {
+  return sb_contact_law(states->task.model);
 }
 
 static SbSlidingTask task_at(const SbSpeedStates *states, double speed) {
@@ -47,7 +48,7 @@ static void give(SbSealState *out, const SbSpeedStates *states, double speed,
   out->film_min = exp(value[LEAST_FILM]);
   out->film_central = exp(value[CENTRAL_FILM]);
   out->layer = exp(value[LAYER]);
-  if (is_coupled(states)) {
+  if (law_of(states)->friction_over_speed) {
     out->real_area_share = fmin(fmax(value[AREA], 0), 1);
     out->boundary_load = fmax(value[LOAD], 0);
     out->friction_viscous = exp(value[VISCOUS]);
@@ -68,7 +69,8 @@ void sb_speed_states_init(SbSpeedStates *out, const SbSlidingTask *task, const S
   if (body != NULL) {
     out->body = *body;
   }
-  if (!is_coupled(out) && !sb_film_kind(task->model->film)->coupled && at->film_central > 0) {
+  if (!law_of(out)->friction_over_speed && !sb_film_kind(task->model->film)->coupled &&
+      at->film_central > 0) {
     SbSealState faster = *at;
     const SbSlidingTask other = task_at(out, 10 * fabs(task->speed));
     // With no more than a supply there is no power, but a law all the same.

@@ -1,6 +1,7 @@
 #include "engine/valve/studies/hold.h"
 
 #include "engine/valve/model/model.h"
+#include "engine/valve/run/valve_type.h"
 
 #include <string.h>
 
@@ -60,7 +61,7 @@ SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbRepor
   if (hold == SB_HOLD_MACHINE) {
     return sb_model_derive(out, scene, machine, sizeof machine / sizeof machine[0], report);
   }
-  if (hold == SB_HOLD_OUTER && scene->kind == SB_VALVE_GASKET) {
+  if (hold == SB_HOLD_OUTER && sb_valve_type(scene)->no_gland != NULL) {
     return sb_fail_input(report, SB_ERROR_INPUT, sb_input(SB_P_VALVE_KIND),
                          "outer-seal is of rings in their grooves; a gasket valve has none");
   }

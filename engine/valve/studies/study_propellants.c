@@ -18,6 +18,7 @@
 // change when one of the inner points is omitted, so with gaps twice as wide; two more points are
 // solved if it is above 10 %. Beyond the ends the ratio is constant, with a warning.
 #include "engine/fluid/fluid.h"
+#include "engine/valve/states/contact_law.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <gsl/gsl_interp.h>
@@ -324,7 +325,7 @@ static SbEvaluator *find_starts(SbStudyWork *work) {
 // Returns whether a cycle is so cheap that the full grid is computed.
 static bool is_closed(const SbModel *scene) {
   return !sb_fit_kind(scene->fit)->points && !sb_film_kind(scene->film)->coupled &&
-         scene->asperities == SB_MODEL_ASPERITIES_BESIDE;
+         !sb_contact_law(scene)->shares;
 }
 
 // Every answer that the charts and the table need, in as few full cycles as do.

@@ -8,6 +8,7 @@
 // so this is one valve and no grid. Between solved speeds the curve is interpolated, with its error
 // reported.
 #include "engine/valve/run/cycle.h"
+#include "engine/valve/states/contact_law.h"
 #include "engine/valve/states/speed_states.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -129,8 +130,7 @@ static void make(SbStudyWork *work) {
   account(work);
   sb_study_note(out, "Roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on %s.",
                 model->sigma * 1e6, model->shear_strength * 1e-6, model->load_coefficient,
-                model->asperities == SB_MODEL_ASPERITIES_COUPLED ? "the asperities' load"
-                                                                 : "the total load");
+                sb_contact_law(model)->shares ? "the asperities' load" : "the total load");
 }
 
 const SbStudyDesign sb_study_stribeck = {
