@@ -141,6 +141,15 @@ def sources_of_the_loop(source):
 # A choice of params.def that code compares.
 CHOICE = re.compile(r'([!=<>]=|[<>]|\bcase) *SB_(FIT|FILM)_(KARASZKIEWICZ|HERTZ|LINDLEY|GREEN_ENGLISH|DISC|DISC_THESIS|RING|'
                     r'THESIS|ASYMPTOTIC|REYNOLDS|INVERSE|MOES|RIGID)\b')
+# Choices of the valve's kind, asperities and motion, also through a predicate.
+KIND = re.compile(r'([!=]=|\bcase) *SB_(VALVE_(PISTON|GASKET)|MODEL_(ASPERITIES|MOTION)_\w+)\b|'
+                  r'\bsb_model_is_(rig|gasket)\(')
+KINDS = ['if (model->kind == SB_VALVE_GASKET) {', 'case SB_MODEL_ASPERITIES_COUPLED:',
+         'model->asperities != SB_MODEL_ASPERITIES_BESIDE ||', 'const bool gasket = sb_model_is_gasket(model);',
+         'if (model->motion == SB_MODEL_MOTION_RIG) {']
+# Models of the rough surface.
+SURFACE = re.compile(r'([!=]=|\bcase) *SB_ROUGH_(GREENWOOD_TRIPP|PERSSON)\b')
+SURFACES = ['if (model->surface == SB_ROUGH_PERSSON) {', 'problem->surface != SB_ROUGH_GREENWOOD_TRIPP &&']
 CHOICES = ['if (model->fit == SB_FIT_RING) {', '  case SB_FILM_MOES:', 'fit < SB_FIT_DISC_THESIS && solved',
            'film->model != SB_FILM_REYNOLDS ||', 'cost(model->fit == SB_FIT_RING, model)']
 # Comparisons of a figure's columns, also with a variable (decisions.py: with a literal, in all layers).
@@ -204,6 +213,14 @@ checks = [
     ('no code outside their rooms compares a choice of fit or film (sb_fit_kind(), sb_film_kind())',
      lines_with(source, ['engine/fluid', 'engine/mechanism', 'engine/rubber', 'engine/valve', 'app', 'ui'], CHOICE)),
     ('that test finds such a line', [line for line in CHOICES if not CHOICE.search(line)]),
+    ('no code of the engine outside engine/valve/model compares the kind of valve, its asperities or its '
+     'motion (sb_valve_type(), sb_contact_law(), sb_motion_kind())',
+     lines_with(source, [f'engine/valve/{room}' for room in VALVE_ROOMS[1:]], KIND)),
+    ('that test finds such a line', [line for line in KINDS if not KIND.search(line)]),
+    ('no code outside engine/contact/rough compares the model of a rough surface (sb_rough_kind())',
+     lines_with(source, ['engine/film', 'engine/contact/disc', 'engine/contact/ring', 'engine/valve', 'app', 'ui'],
+                SURFACE)),
+    ('that test finds such a line', [line for line in SURFACES if not SURFACE.search(line)]),
     ('no room below the valve names a key of the catalogue', keys_below(source, catalogue_keys(source))),
     ('that test finds such a key', keys_that_pass()),
     ('the result of every copy of a model is used',

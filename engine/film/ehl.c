@@ -189,7 +189,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
   out->solver.flux_error = r->flux_error;
   out->starved = isfinite(c->supply);
   if (c->rough.rows) {
-    if (problem->surface == SB_ROUGH_GREENWOOD_TRIPP && out->real_area_share > 0.3) {
+    if (sb_rough_kind(problem->surface)->asperities && out->real_area_share > 0.3) {
       out->valid = false;
       sb_warn(&out->warnings, "real-area-large", SB_FILM_IN_ASPERITY_PRODUCT,
               "asperities touch on %.0f %% of the area: Greenwood and Tripp's asperities are no "

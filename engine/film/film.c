@@ -224,7 +224,7 @@ static SbStatus check(const SbFilmProblem *problem, SbReport *report) {
                    (int)problem->surface);
   }
   if (problem->work_of_adhesion > 0 &&
-      (problem->hamaker > 0 || problem->surface != SB_ROUGH_GREENWOOD_TRIPP)) {
+      (problem->hamaker > 0 || !sb_rough_kind(problem->surface)->asperities)) {
     return sb_fail_input(report, SB_ERROR_INPUT, SB_FILM_IN_WORK_OF_ADHESION,
                          "tips that stick are those of the surface greenwood-tripp, in "
                          "place of van der Waals' pull");

@@ -13,15 +13,23 @@
 
 enum { GAP, PRESSURE, SHARE, PULL };
 
-static const char *const names[SB_ROUGH_COUNT] = {"none", "greenwood-tripp", "persson"};
+static const SbRoughKind kinds[SB_ROUGH_COUNT] = {
+    [SB_ROUGH_NONE] = {.name = "none"},
+    [SB_ROUGH_GREENWOOD_TRIPP] = {.name = "greenwood-tripp", .asperities = true},
+    [SB_ROUGH_PERSSON] = {.name = "persson", .spectrum = true},
+};
+
+const SbRoughKind *sb_rough_kind(SbRoughModel model) {
+  return &kinds[(int)model >= 0 && model < SB_ROUGH_COUNT ? model : SB_ROUGH_NONE];
+}
 
 const char *sb_rough_model_name(SbRoughModel model) {
-  return (int)model >= 0 && model < SB_ROUGH_COUNT ? names[model] : "unknown";
+  return (int)model >= 0 && model < SB_ROUGH_COUNT ? kinds[model].name : "unknown";
 }
 
 bool sb_rough_model_from_name(SbRoughModel *out, const char *name) {
   for (int i = 0; name != NULL && i < SB_ROUGH_COUNT; i++) {
-    if (strcmp(names[i], name) == 0) {
+    if (strcmp(kinds[i].name, name) == 0) {
       *out = (SbRoughModel)i;
       return true;
     }
@@ -148,7 +156,7 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
     return sb_fail(report, SB_ERROR_RANGE,
                    "sigma, sigma/beta, the asperity product and the modulus must be positive");
   }
-  if (!(surface->work >= 0) || (surface->work > 0 && surface->model != SB_ROUGH_GREENWOOD_TRIPP)) {
+  if (!(surface->work >= 0) || (surface->work > 0 && !sb_rough_kind(surface->model)->asperities)) {
     return sb_fail_input(report, SB_ERROR_INPUT, SB_CONTACT_IN_WORK_OF_ADHESION,
                          "tips that stick need a work of adhesion and the surface "
                          "greenwood-tripp");

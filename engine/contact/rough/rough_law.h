@@ -32,6 +32,17 @@ typedef enum {
   SB_ROUGH_COUNT
 } SbRoughModel;
 
+// What a contact model describes.
+typedef struct {
+  const char *name; // on the command line
+  // Independent asperities, whose real contact follows from the distance of the surfaces: valid
+  // while it is a small part of the area. Their tips may adhere (SbRoughSurface.work).
+  bool asperities;
+  // A spectrum of heights, whose real contact follows from the pressure: valid up to full contact,
+  // so that channels between the surfaces can be computed.
+  bool spectrum;
+} SbRoughKind;
+
 // A rough surface, with a smooth or rough counter-surface.
 typedef struct {
   SbRoughModel model;
@@ -143,6 +154,10 @@ typedef struct {
 // steady equation of smooth films (A_H = 1e-20 to 1e-18 J) has solutions up to N of about 100 and
 // none above 600.
 SbSnapWindow sb_rough_snap_in(const SbRoughLaw *law, const SbSnapContact *contact);
+
+// Returns what a model describes; of an unknown number that of SB_ROUGH_NONE, which has neither
+// asperities nor a spectrum. Static.
+const SbRoughKind *sb_rough_kind(SbRoughModel model);
 
 // Returns the name of a model on the command line ("none", "greenwood-tripp", "persson"); static,
 // never NULL.

@@ -2,6 +2,7 @@
 #include "engine/valve/figures/figures.h"
 
 #include "engine/valve/model/model.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -169,7 +170,7 @@ void sb_figures_clear(SbSummary *summary) {
 void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
   summary->metered_volume = model->supply.volume;
   summary->doses = (double)sb_chamber_doses(&model->supply);
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (!sb_motion_kind(model)->valve) {
     return; // the plate has no glands and gives no dose
   }
   summary->filling_time = model->filling_time;

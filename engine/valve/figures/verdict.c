@@ -8,6 +8,7 @@
 
 #include "engine/contact/closed_forms.h"
 #include "engine/valve/model/model.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -205,7 +206,7 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     verdict[kind] = (SbVerdict){SB_ANSWER_UNKNOWN, -1, NAN, NAN, "no limit is set"};
   }
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (!sb_motion_kind(model)->valve) {
     sb_message(verdict[SB_VERDICT_SEALS].reason, SB_TEXT, "the sliding plate seals nothing");
   } else {
     SbVerdict *seals = &verdict[SB_VERDICT_SEALS];

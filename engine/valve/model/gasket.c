@@ -1,6 +1,8 @@
 // Sizes of a gasket valve; see the header.
 #include "engine/valve/model/gasket.h"
 
+#include "engine/valve/model/motion_kind.h"
+
 #include <math.h>
 
 // Radius of a stamped edge over the thickness. Loads of sharp edges are known by extrapolation:
@@ -76,7 +78,7 @@ void sb_gasket_check(const SbModel *model, SbProblems *problems) {
         problems, "models.film_time", NAN, NAN,
         "a gasket's film is computed from its edge's pressure, steady, not followed in time");
   }
-  if (model->motion == SB_MODEL_MOTION_BODIES) {
+  if (sb_motion_kind(model)->joints) {
     sb_model_refuse(problems, "models.motion", NAN, NAN,
                     "bodies are those of the piston valve; a gasket valve moves by quasi-static or "
                     "dynamic");

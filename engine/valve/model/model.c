@@ -11,6 +11,7 @@
 #include "engine/contact/fit.h"
 #include "engine/fluid/fluid.h"
 #include "engine/mechanism/chamber.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <math.h>
 #include <stdarg.h>
@@ -123,7 +124,7 @@ static void compile_rig(SbModel *model, SbProblems *problems) {
   rig->thread_damping = model->damping_ratio * 2 * sqrt(rig->thread_stiffness * rig->mass);
   // As many samples as there may be frames.
   const double samples = rig->duration * rig->rate;
-  if (model->motion == SB_MODEL_MOTION_RIG && !(samples >= 2 && samples <= 2e7)) {
+  if (!sb_motion_kind(model)->valve && !(samples >= 2 && samples <= 2e7)) {
     sb_model_refuse(problems, "rig.duration", 2 / rig->rate, 2e7 / rig->rate,
                     "results in %.3g samples at %.4g Hz, not between 2 and 20 million", samples,
                     rig->rate);
@@ -340,7 +341,7 @@ SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelDat
   }
   size_t before = found->count;
   compile_parts(model, found);
-  if (found->count == before && model->motion == SB_MODEL_MOTION_BODIES) {
+  if (found->count == before && sb_motion_kind(model)->joints) {
     check_joints(model, &made->work, found);
   }
   if (found->count == 0) {
@@ -513,7 +514,7 @@ const SbFitKind *sb_model_fit(const SbModel *model) {
 }
 
 bool sb_model_is_rig(const SbModel *model) {
-  return model != NULL && model->motion == SB_MODEL_MOTION_RIG;
+  return model != NULL && !sb_motion_kind(model)->valve;
 }
 
 bool sb_model_is_gasket(const SbModel *model) {

@@ -4,6 +4,7 @@
 #include "engine/valve/model/gasket.h"
 
 #include "engine/fluid/fluid.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <math.h>
 #include <string.h>
@@ -88,7 +89,8 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
                                        SB_P_FRICTION_TANGENTIAL_STIFFNESS};
   static const char needs_inertia[] =
       "needs models.motion = dynamic; the quasi-static cycle supports only the machine";
-  const bool balance = model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+  const SbMotionKind *motion = sb_motion_kind(model);
+  const bool balance = !motion->inertia;
   const bool lives = model->life_actuations > 1;
   check_ranges(model, problems);
   for (size_t i = 0; balance && i < sizeof inertial / sizeof inertial[0]; i++) {
@@ -107,7 +109,7 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
         "must be above 0 where friction that depends on speed (friction.stribeck_speed) acts "
         "through an elastic seal (friction.tangential_stiffness)");
   }
-  if (lives && (model->motion == SB_MODEL_MOTION_RIG || model->motion == SB_MODEL_MOTION_BODIES)) {
+  if (lives && !motion->lives) {
     sb_model_refuse(problems, "life.actuations", NAN, 1,
                     "needs models.motion = quasi-static or dynamic");
   }
@@ -120,14 +122,14 @@ static void check_combinations(const SbModel *model, SbProblems *problems) {
     check_variant(model, problems);
   }
   SbSpectrum spectrum;
-  if (model->surface == SB_ROUGH_PERSSON &&
+  if (sb_rough_kind(model->surface)->spectrum &&
       sb_spectrum_from_asperities(&spectrum, model->sigma, model->sigma_over_beta,
                                   model->gt_product, NULL) == SB_ERROR_INFEASIBLE) {
     sb_model_refuse(
         problems, "surface.gt_product", 0.025, NAN,
         "no random surface has so small an asperity product (models.surface = persson)");
   }
-  if (model->work_of_adhesion > 0 && model->surface != SB_ROUGH_GREENWOOD_TRIPP) {
+  if (model->work_of_adhesion > 0 && !sb_rough_kind(model->surface)->asperities) {
     sb_model_refuse(problems, "models.adhesion", NAN, NAN,
                     "asperities: tips that stick are those of models.surface = greenwood-tripp");
   }
@@ -151,7 +153,7 @@ static void check_profile(const SbModel *model, SbProblems *problems) {
                     "%s is a closed form for a round section: %s = %s needs reynolds",
                     sb_film_kind(model->film)->name, key, name);
   }
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (!sb_motion_kind(model)->valve) {
     sb_model_refuse(problems, "models.motion", NAN, NAN,
                     "the rig's contacts are those of round sections, not of %s = %s", key, name);
   }

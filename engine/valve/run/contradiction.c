@@ -3,6 +3,7 @@
 
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <math.h>
 
@@ -102,7 +103,7 @@ static bool twice_contradicts(const Check *check) {
   };
   const SbSummary *s = check->summary;
   if (s->stage[SB_STAGE_B].reached && differ(s->force_breakaway, s->stage[SB_STAGE_B].force) &&
-      s->status == SB_OK && check->model->motion != SB_MODEL_MOTION_RIG) {
+      s->status == SB_OK && sb_motion_kind(check->model)->valve) {
     sb_text(check->text, check->size, "break-away %.9g N, but stage B %.9g N", s->force_breakaway,
             s->stage[SB_STAGE_B].force);
     return true;

@@ -10,6 +10,7 @@
 #include "engine/contact/fit.h"
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
+#include "engine/valve/model/motion_kind.h"
 #include "engine/valve/run/cost.h"
 #include "engine/valve/run/frame.h"
 #include "engine/valve/run/rig.h"
@@ -110,7 +111,7 @@ static int count_fits(const SbModel *model) {
 }
 
 static bool finds_speed(const SbModel *model) {
-  return model->motion != SB_MODEL_MOTION_QUASI_STATIC && model->drive != SB_MODEL_DRIVE_MACHINE;
+  return sb_motion_kind(model)->inertia && model->drive != SB_MODEL_DRIVE_MACHINE;
 }
 
 static void plan_rig(SbPlan *plan, const SbModel *model) {
@@ -216,7 +217,7 @@ typedef struct {
 static void valve_costs(Costs *out, const SbPlan *plan, const SbModel *model) {
   const SbContactLaw *law = sb_contact_law(model);
   const bool coupled = law->shares, finds = finds_speed(model);
-  const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
+  const bool inertia = sb_motion_kind(model)->inertia;
   const bool solved = sb_film_kind(model->film)->coupled, body = sb_fit_kind(model->fit)->body;
   const SbCounters *n = &plan->expected;
   const int fits = count_fits(model);
@@ -295,7 +296,7 @@ static void add_valve_rows(SbPlan *plan, const SbModel *model, const Costs *cost
                            const Texts *texts, bool draws_section) {
   const SbContactLaw *law = sb_contact_law(model);
   const char *film = law->film != NULL ? law->film : texts->law;
-  const bool inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC;
+  const bool inertia = sb_motion_kind(model)->inertia;
   const SbCounters *n = &plan->expected;
   const char *fit = sb_fit_kind(model->fit)->name;
   const double fit_off = fit_error(model), film_off = film_error(model);
@@ -349,7 +350,7 @@ static void plan_valve(SbPlan *plan, const SbModel *model, const SbPlanWishes *w
   const unsigned sections = views & (SB_VIEW_SECTION | SB_VIEW_DASHBOARD);
   const unsigned drawn = sections | (views & SB_VIEW_PROFILES);
   plan->film_history = plan->reynolds && model->film_history;
-  plan->bodies = model->motion == SB_MODEL_MOTION_BODIES;
+  plan->bodies = sb_motion_kind(model)->joints;
   plan->profiles = drawn != 0;
   plan->section_fields = sections != 0 && plan->ring;
   plan->shelf = shelf_wished(model, views);
@@ -370,7 +371,7 @@ static SbPlan basis(const SbModel *model, bool life) {
   return (SbPlan){.ring = sb_fit_kind(model->fit)->section,
                   .reynolds = sb_contact_solves_film(model),
                   .life = life && model->life_actuations > 1,
-                  .inertia = model->motion != SB_MODEL_MOTION_QUASI_STATIC,
+                  .inertia = sb_motion_kind(model)->inertia,
                   .frames = model->frames,
                   .frame_films = true};
 }
@@ -430,11 +431,11 @@ void sb_plan_wished(SbPlan *out, const SbModel *model, const SbPlanWishes *wishe
   }
   out->seal[SB_OUTER] = out->seal[SB_INNER] = SB_DEPTH_WHOLE;
   out->film_laws = out->motion = true;
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (sb_motion_kind(model)->valve) {
+    plan_valve(out, model, wishes);
+  } else {
     out->ring = out->reynolds = false;
     plan_rig(out, model);
-  } else {
-    plan_valve(out, model, wishes);
   }
   plan_studies(out, model, wishes->studies);
 }

@@ -8,6 +8,7 @@
 #include "engine/base/clock.h"
 #include "engine/numeric/sampling.h"
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/model/motion_kind.h"
 #include "engine/valve/run/contradiction.h"
 #include "engine/valve/run/run_private.h"
 
@@ -21,7 +22,7 @@
 
 // Frames of one actuation, or two if a life shows a second one; or the rig's samples.
 static size_t frames_at_most(const SbModel *model, const SbPlan *plan) {
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (!sb_motion_kind(model)->valve) {
     return sb_rig_samples(&model->rig);
   }
   size_t one = (size_t)plan->frames + SB_RUN_EVENT_FRAMES + 2 * (size_t)model->cycles;
@@ -413,8 +414,8 @@ SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   sb_run_begin_work(run, hooks);
   SbReport local = {0};
   report = report != NULL ? report : &local;
-  SbStatus status = run->model->motion == SB_MODEL_MOTION_RIG ? sb_run_rig(run, hooks, report)
-                                                              : execute_valve(run, hooks, report);
+  SbStatus status = sb_motion_kind(run->model)->valve ? execute_valve(run, hooks, report)
+                                                      : sb_run_rig(run, hooks, report);
   if (status == SB_OK && run->work->spent) {
     status = name_spent(run, report);
     sb_warn(&summary->warnings, "work-limit", report->input, "%s", report->text);

@@ -4,6 +4,7 @@
 #include "engine/film/laws.h"
 #include "engine/fluid/fluid.h"
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/model/motion_kind.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -79,7 +80,7 @@ static SbStatus percolate(SbPercolation *leak, SbPercolationProblem *problem, co
   const SbModel *model = run->model;
   const SbSealPressure pressure = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
   const double modulus = model->seal[seal].reduced_modulus;
-  if (model->surface != SB_ROUGH_PERSSON) {
+  if (!sb_rough_kind(model->surface)->spectrum) {
     return sb_fail_input(report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_SURFACE),
                          "Greenwood and Tripp's independent asperities are not valid near "
                          "full contact (models.surface = persson does)");
@@ -114,7 +115,7 @@ static void report_unknown_leak(SbRun *run, int seal, const SbReport *report) {
   for (size_t i = 0; i < sizeof figures / sizeof figures[0]; i++) {
     sb_seal_reason(&run->summary, seal, figures[i], "leak at rest: %s", report->text);
   }
-  if (run->model->surface == SB_ROUGH_PERSSON) { // else a choice of models, no surprise
+  if (sb_rough_kind(run->model->surface)->spectrum) { // else a choice of models, no surprise
     sb_warn(&run->summary.warnings, "static-leak-unknown", report->input,
             "the leak at rest is not computed: %s", report->text);
   }
@@ -415,7 +416,7 @@ static void give_reasons_of_seal(SbSummary *summary, const SbModel *model, int s
 static void give_reasons_of_run(SbRun *run, bool well) {
   SbSummary *summary = &run->summary;
   const SbModel *model = run->model;
-  const bool rig = model->motion == SB_MODEL_MOTION_RIG;
+  const bool rig = !sb_motion_kind(model)->valve;
   const Reason before[] = {
       {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
       {rig, "shelf.*", "the sliding plate (models.motion = rig) has no can"},

@@ -236,7 +236,7 @@ static SbStatus make_profile(const Task *task, SbReport *report) {
       free(x);
       return status;
     }
-  } else if (fitted && run->model->surface == SB_ROUGH_GREENWOOD_TRIPP) {
+  } else if (fitted && sb_rough_kind(run->model->surface)->asperities) {
     asperity_pressure(run->model, seal, h, asperities, n);
   }
   store_profile(profile, x, n, capacity, run->model);

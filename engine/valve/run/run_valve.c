@@ -16,6 +16,7 @@
 // the canister when the inner contact has left the land, to the vent while any of the hole is
 // between the two contacts (fully open or closed), and to the canister through a by-pass below
 // bore.refill_travel.
+#include "engine/valve/model/motion_kind.h"
 #include "engine/valve/run/run_private.h"
 #include "engine/valve/run/valve_type.h"
 #include "engine/valve/states/breakaway.h"
@@ -599,8 +600,7 @@ static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *a
   const bool mixed = model->pressure_map == SB_MAP_PORTS && at->chamber != SB_CHAMBER_OPEN;
   const double filled = filling(run, at->pressure), s = sample->position;
   // Where a quasi-static stem jumps its speed is not known.
-  const bool balanced =
-      sb_valve_type(model)->drive_friction && model->motion == SB_MODEL_MOTION_QUASI_STATIC;
+  const bool balanced = sb_valve_type(model)->drive_friction && !sb_motion_kind(model)->inertia;
   const bool own = moving && sample->speed != 0 && run->plan.frame_films && !balanced;
   const double speed = own ? sample->speed : run->speed;
   SbSealState state;

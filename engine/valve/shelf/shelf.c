@@ -36,7 +36,7 @@ const char *sb_shelf_lacks_water(const SbModel *model) {
 }
 
 const char *sb_shelf_lacks_interface(const SbModel *model) {
-  return model->surface == SB_ROUGH_PERSSON
+  return sb_rough_kind(model->surface)->spectrum
              ? NULL
              : "loss along the contact: Greenwood and Tripp's independent asperities are not valid "
                "near full contact (models.surface = persson does)";

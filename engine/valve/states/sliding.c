@@ -124,7 +124,7 @@ double sb_sliding_squeeze_error(const SbSealState *state, const SbSlidingTask *t
 void sb_sliding_warn_strength(const SbSlidingTask *task, double share) {
   const SbModel *model = task->model;
   const bool thesis = model->set == SB_MODEL_SET_THESIS;
-  if (model->surface == SB_ROUGH_PERSSON && thesis &&
+  if (sb_rough_kind(model->surface)->spectrum && thesis &&
       !model->params.given[SB_P_FRICTION_SHEAR_STRENGTH]) {
     sb_warn(
         task->warnings, "persson-shear-strength", sb_input(SB_P_FRICTION_SHEAR_STRENGTH),

@@ -13,7 +13,7 @@ static SbStatus real_area(SbSealState *out, const SbSlidingTask *task, double ro
                           SbReport *report) {
   const SbModel *model = task->model;
   const SbRoughSurface surface = sb_model_surface(model, task->seal, roughness);
-  if (model->surface == SB_ROUGH_PERSSON) {
+  if (sb_rough_kind(model->surface)->spectrum) {
     SbSpectrum spectrum;
     SbStatus status = sb_spectrum_from_asperities(&spectrum, surface.sigma, surface.sigma_over_beta,
                                                   surface.product, report);

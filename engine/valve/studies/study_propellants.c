@@ -18,6 +18,7 @@
 // change when one of the inner points is omitted, so with gaps twice as wide; two more points are
 // solved if it is above 10 %. Beyond the ends the ratio is constant, with a warning.
 #include "engine/fluid/fluid.h"
+#include "engine/valve/model/motion_kind.h"
 #include "engine/valve/states/contact_law.h"
 #include "engine/valve/studies/study_private.h"
 
@@ -413,7 +414,7 @@ static void make(SbStudyWork *work) {
   static const double table[TABLE] = {263.15, 273.15, 293.15, 313.15, 323.15};
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (!sb_motion_kind(model)->valve) {
     work->status = sb_fail_input(work->report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_MOTION),
                                  "the rig has no valve and no propellant");
     return;

@@ -7,6 +7,7 @@
 // asperities share the load (film/ehl.h). The contact of a ring has the drag at the cycle's speed,
 // so this is one valve and no grid. Between solved speeds the curve is interpolated, with its error
 // reported.
+#include "engine/valve/model/motion_kind.h"
 #include "engine/valve/run/cycle.h"
 #include "engine/valve/states/contact_law.h"
 #include "engine/valve/states/speed_states.h"
@@ -88,7 +89,7 @@ static void make(SbStudyWork *work) {
   const SbOverride once = {SB_P_LIFE_ACTUATIONS, 1};
   const char *path[LINES];
   double friction[LINES], at[POINTS + 1];
-  if (model->motion != SB_MODEL_MOTION_RIG) {
+  if (sb_motion_kind(model)->valve) {
     work->base = *model; // as it moves
   }
   if (work->hi > SB_SPEED_MOST) {

@@ -9,6 +9,8 @@
 // curves show. The groove's width is omitted, because nothing here depends on it.
 #include "engine/valve/studies/study_private.h"
 
+#include "engine/valve/model/motion_kind.h"
+
 #include <math.h>
 
 enum { SIZES = SB_TOLERANCE_SIZES, STEPS = SB_TOLERANCE_STEPS, FIGURES = SB_TOLERANCE_FIGURES };
@@ -74,7 +76,7 @@ static void put_row(SbStudyWork *work, const char *name, int figure) {
 static void make(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbModel *model = work->scene;
-  if (model->motion == SB_MODEL_MOTION_RIG) {
+  if (!sb_motion_kind(model)->valve) {
     work->status = sb_fail_input(work->report, SB_ERROR_INFEASIBLE, sb_input(SB_P_MODELS_MOTION),
                                  "the rig has no valve whose sizes could vary");
     return;
