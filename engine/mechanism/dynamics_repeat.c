@@ -223,6 +223,12 @@ static double place_at(const SbDynamics *s, double t, int direction) {
   return z.x;
 }
 
+// Returns how far the stem has moved at time t, at its break-away there: farther than its speed now
+// times the time where the drive becomes faster.
+static double way_to(const SbDynamics *s, double t, int direction) {
+  return direction * (place_at(s, t, direction) - s->at.x);
+}
+
 // Parabola through the values at the begin, middle and end of five: how far the others are off it.
 static double off_parabola(const double y[5]) {
   const double early = 0.375 * y[0] + 0.75 * y[2] - 0.125 * y[4];
@@ -288,7 +294,9 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   const Ahead ahead = look_ahead(s, direction);
   double span = fmax(4.0 * g->span, 2.0 * worth * period);
   span = fmin(span, fmin(ahead.time, ahead.way / speed) - worth * period); // time to close it
-  while (span >= worth * period && bend(s, s->t + span, direction) > bound) {
+  const double room = ahead.way - worth * period * speed;
+  while (span >= worth * period &&
+         (way_to(s, s->t + span, direction) > room || bend(s, s->t + span, direction) > bound)) {
     span *= 0.5;
   }
   const double until = s->t + span;

@@ -281,6 +281,49 @@ static void test_groups(void) {
   }
 }
 
+static void pressed_back(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
+                         void *user) {
+  *loads = (SbDynamicsLoads){.force = -14.5, .level = {8.0, 2.0}, .constant = true};
+}
+
+// A group of slips ends before an edge, also where the drive becomes faster on the way there, as a
+// sinusoid does behind its turn. From behind the edge the stem would be set back to it, hundreds of
+// newtons off the platen, and thrown onto the platen.
+static void test_group_edges(void) {
+  const SbDynamicsContact rigid = {.static_ratio = 1.3, .stiffness = INFINITY};
+  const SbDynamicsModel m = {
+      .mass = 1e-3,
+      .contacts = 2,
+      .contact = {rigid, rigid},
+      .loads = pressed_back,
+      .edges = 5,
+      .edge = {1.0e-3, 1.4e-3, 1.7e-3, 1.9e-3, 1.98e-3},
+      .drive = {.kind = SB_DRIVE_SINE, .amplitude = 2e-3, .frequency = 0.4},
+      .drive_stiffness = 2e8,
+      .tolerance = 1e-6,
+  };
+  SbDynamics d;
+  SbDynamicsSample at;
+  SbDynamicsEnergy e;
+  go(&d, &m, NULL);
+  advance(&d, 0.625);
+  sb_dynamics_sample(&d, &at, &e);
+  const double top = at.position, peak = sb_dynamics_force_peak(&d);
+  const long before = d.counters.grouped, lifted = d.platens;
+  advance(&d, 1.1);
+  sb_dynamics_sample(&d, &at, &e);
+  g_test_message("%ld events, %ld cycles in groups; from %.4g to %.4g m, %ld times off the platen, "
+                 "peak %.9g N, before %.9g N, closure %.1e",
+                 d.counters.events, d.counters.grouped - before, top, at.position,
+                 d.platens - lifted, sb_dynamics_force_peak(&d), peak, e.closure);
+  g_assert_cmpfloat(top, >, m.edge[4]);
+  g_assert_cmpfloat(at.position, <, m.edge[0]);
+  g_assert_cmpint(d.counters.grouped - before, >, d.counters.events);
+  g_assert_cmpint(d.platens, ==, lifted);
+  g_assert_cmpfloat(sb_dynamics_force_peak(&d), ==, peak);
+  g_assert_cmpfloat(e.closure, <, 5e-7); // a group's force is off its parabola by as much
+}
+
 static void test_incline(void) {
   Flat flat = {{.force = 0.999 * 5.0, .level = {5.0}, .constant = true}};
   SbDynamicsModel m = {.mass = 1.0,
@@ -596,6 +639,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/motion/dynamics/belt", test_belt);
   g_test_add_func("/motion/dynamics/stiff", test_stiff);
   g_test_add_func("/motion/dynamics/groups", test_groups);
+  g_test_add_func("/motion/dynamics/group-edges", test_group_edges);
   g_test_add_func("/motion/dynamics/incline", test_incline);
   g_test_add_func("/motion/dynamics/bounce", test_bounce);
   g_test_add_func("/motion/dynamics/walls", test_walls);
