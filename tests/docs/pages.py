@@ -20,7 +20,7 @@ programs on PATH. Blocks work in page order:
 
 Figures that sentences and tables quote are held by a comment `<!-- sealbench ... prints 28.70 N; 0.30 N -->`:
 each must be in the command's output and in the text of the page. The output of a command that the page has
-already run is used again.
+already run is used again, by these comments and by `sealbench run` in a sentence.
 
 A block without a language is an error, and so is one of another language without a name.
 
@@ -284,6 +284,7 @@ class Runner:
             return
         with open(os.path.join(self.folder, name.group(1)), 'w', encoding='utf-8') as file:
             file.write('\n'.join(lines) + '\n')
+        self.outputs = {command: output for command, output in self.outputs.items() if name.group(1) not in command}
         if name.group(1).endswith(('.valve', '.scene', '.study', '.rubber')):
             self.code, self.output = self.run(['sealbench', 'check', name.group(1)])
             self.finish(line, name.group(1), None)
@@ -310,6 +311,8 @@ class Runner:
         named_only = (len(words) == 1 and not words[0].startswith('-')) or PLACEHOLDER.search(code)
         if PROGRAM.match(code).group(1) == 'sealbench' and (named_only or words[0] == 'thesis'):
             self.look_up(line, code)
+        elif words[0] == 'run' and code in self.outputs:
+            self.report(True, line, code)
         elif not PLACEHOLDER.search(code):
             self.run_command(line, code)
 

@@ -373,6 +373,20 @@ static void test_rest(void) {
   sb_model_destroy(model);
 }
 
+// Two threads for the thread sanitizer to watch; the bits are the affair of `threads`.
+static void test_races(void) {
+  const SbOverride few[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2},
+                            {SB_P_FRICTION_SHEAR_STRENGTH, 1e6},
+                            {SB_P_OUTPUT_FRAMES, 4},
+                            {SB_P_OUTPUT_VIEWS, 0}};
+  SbModel *model = ring_model(few, G_N_ELEMENTS(few));
+  SbRun *run = execute(model, false);
+  g_assert_true(
+      isfinite(sb_figure_value(sb_run_summary(run), sb_figure_find("cycle.force_peak_N"))));
+  sb_run_destroy(run);
+  sb_model_destroy(model);
+}
+
 // One thread or two: the same bits.
 static void test_threads(void) {
   const SbOverride quick[] = {{SB_P_OUTPUT_TOLERANCE, 1e-2}, {SB_P_FRICTION_SHEAR_STRENGTH, 1e6}};
@@ -467,6 +481,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-ring/jump", test_jump);
   g_test_add_func("/run-ring/mirrored", test_mirrored);
   g_test_add_func("/run-ring/rest", test_rest);
+  g_test_add_func("/run-ring/races", test_races);
   g_test_add_func("/run-ring/threads", test_threads);
   g_test_add_func("/run-ring/cancelled", test_cancelled);
   g_test_add_func("/run-ring/rolls", test_rolls);

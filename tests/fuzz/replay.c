@@ -20,7 +20,7 @@ static void test_corpus(void) {
 // Replaces, inserts, removes and doubles pieces, with bytes that mean something to the format.
 static void test_mutations(void) {
   enum { CHANGES = 6 };
-  int rounds = g_test_slow() ? 4000 : 500;
+  int rounds = g_test_slow() ? 4000 : 150;
   static const char alphabet[] = "[]=#;.\n\r -+0123456789eEmMPaµ\xff\x01/ansif";
   GRand *random = g_rand_new_with_seed(20);
   for (int round = 0; round < rounds; round++) {

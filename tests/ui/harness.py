@@ -30,17 +30,19 @@ ROLES = {Atspi.role_get_name(role): role
 
 
 def wait(what, question, timeout=TIMEOUT):
-    """Asks again and again until the answer is true; returns it."""
+    """Asks again and again until the answer is true; returns it. A question that takes the window long is asked
+    less often: the window has most of the time for itself."""
     end = time.monotonic() + timeout
     last = None
     while time.monotonic() < end:
+        asked = time.monotonic()
         try:
             answer = question()
             if answer:
                 return answer
         except Exception as error:  # a widget that went away while we looked
             last = error
-        time.sleep(0.02)
+        time.sleep(min(max(0.02, 3 * (time.monotonic() - asked)), 0.5))
     raise AssertionError("waited %.0f s for: %s (%r)" % (timeout, what, last))
 
 
