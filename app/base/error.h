@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glib.h>
+#include <stdbool.h>
 
 // Codes of errors; each has its exit code.
 typedef enum {
@@ -18,5 +19,9 @@ typedef enum {
 GQuark sb_app_error_quark(void);
 
 // Sets SB_APP_ERROR_INPUT with a formatted sentence that can contain text of an untrusted file; it
-// is made printable (sb_printable()).
-void sb_app_error_input(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+// is made printable (sb_printable()). Always returns false, the result of a reader that fails.
+bool sb_app_error_input(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+
+// Puts "NAME: " before the message of an error, unless `error` or *error is NULL. `name` is made
+// printable.
+void sb_app_error_prefix(GError **error, const char *name);

@@ -18,7 +18,7 @@ GPtrArray *sb_issues_new(void) {
   return g_ptr_array_new_with_free_func(issue_free);
 }
 
-void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
+bool sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) {
   // The list is full: the last issue counts.
   if (issues->len > SB_ISSUES_MAX) {
@@ -26,14 +26,14 @@ void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *ke
     last->line++;
     g_free(last->text);
     last->text = g_strdup_printf("and %d more", last->line);
-    return;
+    return false;
   }
   SbIssue *issue = g_new0(SbIssue, 1);
   if (issues->len == SB_ISSUES_MAX) {
     issue->line = 1;
     issue->text = g_strdup("and 1 more");
     g_ptr_array_add(issues, issue);
-    return;
+    return false;
   }
   issue->file = file != NULL ? sb_printable(file, strlen(file)) : NULL;
   issue->line = line;
@@ -46,6 +46,14 @@ void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *ke
   issue->text = sb_printable(text, strlen(text));
   g_free(text);
   g_ptr_array_add(issues, issue);
+  return false;
+}
+
+void sb_note_add(GPtrArray *notes, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_ptr_array_add(notes, g_strdup_vprintf(format, arguments));
+  va_end(arguments);
 }
 
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <glib.h>
+#include <stdbool.h>
 
 // A problem. Strings are owned by the issue.
 typedef struct {
@@ -20,9 +21,13 @@ GPtrArray *sb_issues_new(void);
 enum { SB_ISSUES_MAX = 100 };
 
 // Appends an issue with a formatted text. `file`, `key` and `allowed` may be NULL and `line` 0, as
-// in SbIssue. All texts are copied and made printable (sb_printable()).
-void sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
+// in SbIssue. All texts are copied and made printable (sb_printable()). Always returns false, the
+// result of a reader that fails.
+bool sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
+
+// Appends a formatted sentence to a list of char *.
+void sb_note_add(GPtrArray *notes, const char *format, ...) G_GNUC_PRINTF(2, 3);
 
 // Appends a copy of an issue.
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue);

@@ -2,6 +2,7 @@
 // refused, and every line that cannot be read is an issue.
 #include "app/base/reader.h"
 
+#include "app/base/error.h"
 #include "app/base/output.h"
 
 #include <errno.h>
@@ -94,6 +95,17 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
     text = sb_reader_load_stream(length, fd, shown, bytes_max, issues);
   }
   close(fd);
+  return text;
+}
+
+char *sb_reader_load_file(size_t *length, const char *path, const char *shown, size_t bytes_max,
+                          int code, GError **error) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  char *text = sb_reader_load(length, path, shown, bytes_max, issues);
+  if (text == NULL) {
+    g_autofree char *line = sb_issue_line(issues->pdata[0]);
+    g_set_error_literal(error, SB_APP_ERROR, code, line);
+  }
   return text;
 }
 

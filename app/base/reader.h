@@ -29,6 +29,10 @@ bool sb_reader_reads_pipes(void);
 char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
                      GPtrArray *issues);
 
+// As sb_reader_load(), with the problem as an error of the code `code` (app/base/error.h).
+char *sb_reader_load_file(size_t *length, const char *path, const char *shown, size_t bytes_max,
+                          int code, GError **error);
+
 // As sb_reader_load(), from the open descriptor `fd` of any kind to its end; the descriptor stays
 // open.
 char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,

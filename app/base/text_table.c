@@ -26,16 +26,12 @@ enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into m
 
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
 
-static const char *const encodings[SB_TEXT_TABLE_ENCODING_COUNT] = {
-    "", "utf-8", "latin-1", "utf-16le", "utf-16be", "shift-jis"};
-
-const char *sb_text_table_encoding_name(SbTextTableEncoding encoding) {
-  return (unsigned)encoding < SB_TEXT_TABLE_ENCODING_COUNT ? encodings[encoding] : "";
-}
+const char *const sb_text_table_encodings[] = {"any",      "utf-8",     "latin-1", "utf-16le",
+                                               "utf-16be", "shift-jis", NULL};
 
 // ---- Bytes ----
 
-enum { ENCODING_BYTES = 1 << 16 };
+enum { HEAD_BYTES = 1 << 16 };
 
 // Whether text that is not UTF-8 is Shift-JIS rather than Windows-1252: pairs of bytes only, of
 // which some begin as kana and common characters do, where Windows-1252 has rare signs.
@@ -55,8 +51,7 @@ static bool is_shift_jis(const guint8 *bytes, size_t length) {
 
 // From the first `looked` of `length` bytes.
 static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
-  if (looked >= 2 &&
-      ((bytes[0] == 0xff && bytes[1] == 0xfe) || (bytes[0] == 0xfe && bytes[1] == 0xff))) {
+  if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0)) {
     return bytes[0] == 0xff ? SB_TEXT_TABLE_UTF16LE : SB_TEXT_TABLE_UTF16BE;
   }
   // Half of the bytes of digits in UTF-16 are zero, those of one side.
@@ -76,56 +71,48 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
                                        : SB_TEXT_TABLE_LATIN1;
 }
 
-char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding encoding) {
-  if (encoding != SB_TEXT_TABLE_LATIN1 && encoding != SB_TEXT_TABLE_SHIFT_JIS) {
-    return sb_printable(text, length);
-  }
-  g_autofree char *known =
-      g_convert(text, (gssize)length, "UTF-8",
-                encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252" : "CP932", NULL, NULL, NULL);
-  if (known != NULL) {
-    return sb_printable(known, strlen(known));
-  }
-  g_autoptr(GString) out = g_string_sized_new(length);
-  for (size_t i = 0; i < length; i++) {
-    g_string_append_unichar(out, (guchar)text[i]);
-  }
-  return sb_printable(out->str, out->len);
+// Finds the encoding, unless it is known, and the ends of lines.
+static void find_lines(SbTextTableBytes *bytes, SbTextTableEncoding known) {
+  g_autofree guint8 *head = g_malloc(HEAD_BYTES);
+  const size_t looked = fread(head, 1, MIN(bytes->length, HEAD_BYTES), bytes->stream);
+  bytes->encoding =
+      known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, bytes->length);
+  const bool old = memchr(head, '\n', looked) == NULL && memchr(head, '\r', looked) != NULL;
+  bytes->line_end = old ? '\r' : '\n';
 }
 
 static void string_free(gpointer data) {
   g_string_free(data, TRUE);
 }
 
-static void take_lines(Sample *sample, const SbTextTable *table, size_t from, size_t lines_max) {
+static void take_lines(Sample *sample, const SbTextTableBytes *bytes, size_t from,
+                       size_t lines_max) {
   SbTextTableLines lines;
-  const char *text;
-  size_t length;
-  sb_text_table_lines_init(&lines, &table->bytes, from, table->dialect.encoding);
+  const GString *line;
+  sb_text_table_lines_init(&lines, bytes, from);
   if (from > 0) {
-    (void)sb_text_table_next(&lines, &text, &length); // the rest of a line
+    (void)sb_text_table_next(&lines); // the rest of a line
   }
   const size_t end = sb_text_table_lines_place(&lines) + SAMPLE_BYTES;
   for (size_t i = 0; i < lines_max && sb_text_table_lines_place(&lines) < end &&
-                     sb_text_table_next(&lines, &text, &length);
+                     (line = sb_text_table_next(&lines)) != NULL;
        i++) {
-    GString *line = g_string_new_len(text, (gssize)MIN(length, LINE_BYTES));
-    g_ptr_array_add(sample->line, line);
+    g_ptr_array_add(sample->line, g_string_new_len(line->str, (gssize)MIN(line->len, LINE_BYTES)));
     sample->head += from == 0;
   }
   sample->wrong = sample->wrong != NULL ? sample->wrong : lines.wrong;
   sb_text_table_lines_clear(&lines);
 }
 
-static Sample take_sample(const SbTextTable *table) {
+static Sample take_sample(const SbTextTableBytes *bytes) {
   Sample sample = {.line = g_ptr_array_new_with_free_func(string_free)};
-  take_lines(&sample, table, 0, SAMPLE_LINES);
+  take_lines(&sample, bytes, 0, SAMPLE_LINES);
   for (size_t part = 1; part <= 3; part++) {
     // Places behind the first look; the last near the end.
-    const size_t from = part < 3 ? part * (table->bytes.length / 3)
-                                 : table->bytes.length - MIN(table->bytes.length, SAMPLE_BYTES / 8);
+    const size_t from = part < 3 ? part * (bytes->length / 3)
+                                 : bytes->length - MIN(bytes->length, SAMPLE_BYTES / 8);
     if (from > SAMPLE_BYTES) {
-      take_lines(&sample, table, from & ~(size_t)1, SAMPLE_TAIL);
+      take_lines(&sample, bytes, from & ~(size_t)1, SAMPLE_TAIL);
     }
   }
   return sample;
@@ -140,13 +127,12 @@ typedef struct {
   double score;
 } Fit;
 
-SbTextTableShape sb_text_table_shape(const char *line, size_t length,
-                                     const SbTextTableDialect *dialect) {
+SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDialect *dialect) {
   SbTextTableCell cell;
   SbTextTableShape shape = {0};
-  const char *at = length > 0 && memchr("#%!", *line, 3) == NULL ? line : NULL;
+  const char *at = line->len > 0 && memchr("#%!", *line->str, 3) == NULL ? line->str : NULL;
   for (size_t i = 0; (dialect->matrix || i < SB_TEXT_TABLE_COLUMNS_MAX) &&
-                     sb_text_table_cell(&cell, &at, line + length, dialect->separator);
+                     sb_text_table_cell(&cell, &at, line->str + line->len, dialect->separator);
        i++) {
     const guint64 bit = G_GUINT64_CONSTANT(1) << MIN(i, SB_TEXT_TABLE_COLUMNS_MAX - 1);
     double value;
@@ -164,11 +150,7 @@ SbTextTableShape sb_text_table_shape(const char *line, size_t length,
 }
 
 static int count_bits(guint64 bits) {
-  int count = 0;
-  for (; bits != 0; bits &= bits - 1) {
-    count++;
-  }
-  return count;
+  return __builtin_popcountll(bits);
 }
 
 // Whether two lines are rows of one table: numbers, times and texts are in the same columns. A cell
@@ -188,16 +170,12 @@ static bool is_row(const SbTextTableShape *shape, const SbTextTableDialect *dial
                          : count_bits(shape->numeric | shape->clocks) >= 2;
 }
 
-static SbTextTableShape shape_of(const GString *line, const SbTextTableDialect *dialect) {
-  return sb_text_table_shape(line->str, line->len, dialect);
-}
-
 static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) {
   enum { SHAPES = 32 };
   SbTextTableShape seen[SHAPES];
   size_t count = 0, rows[SHAPES] = {0};
   for (guint i = 0; i < sample->line->len; i++) {
-    const SbTextTableShape shape = shape_of(sample->line->pdata[i], dialect);
+    const SbTextTableShape shape = sb_text_table_shape(sample->line->pdata[i], dialect);
     size_t at = 0;
     while (at < count && !same_shape(&seen[at], &shape, dialect)) {
       at++;
@@ -232,48 +210,34 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
   return fit;
 }
 
-// The first cell of the sample that has another value in another dialect; "" without one.
-static char *find_two_ways(const Sample *sample, const Fit *one, const Fit *two) {
-  for (guint i = 0; i < sample->line->len; i++) {
+// Refuses a file that two dialects read equally well with other values: false with an issue.
+static bool accept(const SbTextTable *table, const Sample *sample, const Fit *best,
+                   const Fit *rival, GPtrArray *issues) {
+  if (best->shape.cells != rival->shape.cells) {
+    return sb_issues_add(
+        issues, table->file->shown, 0, "separator", NULL,
+        "is ambiguous: %zu columns with decimal commas or %zu columns separated by "
+        "commas: write decimal points, or separate by semicolons",
+        MIN(best->shape.cells, rival->shape.cells), MAX(best->shape.cells, rival->shape.cells));
+  }
+  const bool grouped = ((best->shape.saw | rival->shape.saw) & SB_TEXT_TABLE_SAW_GROUPS) != 0;
+  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
+  // The first cell that has another value in the other dialect.
+  for (guint i = 0; grouped && i < sample->line->len; i++) {
     const GString *line = sample->line->pdata[i];
-    SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-    const size_t cells = sb_text_table_split(cell, line->str, line->len, one->dialect.separator);
+    const size_t cells = sb_text_table_split(cell, line->str, line->len, best->dialect.separator);
     for (size_t k = 0; k < cells; k++) {
       double a, b;
-      if (sb_text_table_number(&a, &cell[k], &one->dialect, NULL) &&
-          sb_text_table_number(&b, &cell[k], &two->dialect, NULL) && a != b) {
-        return sb_printable(cell[k].text, MIN(cell[k].length, 40));
+      if (sb_text_table_number(&a, &cell[k], &best->dialect, NULL) &&
+          sb_text_table_number(&b, &cell[k], &rival->dialect, NULL) && a != b) {
+        return sb_issues_add(issues, table->file->shown, 0, "decimal", "point, comma",
+                             "is ambiguous: \"%.*s\" is %g with a decimal %s, %g with a decimal %s",
+                             (int)MIN(cell[k].length, 40), cell[k].text, a,
+                             best->dialect.decimal == '.' ? "point" : "comma", b,
+                             rival->dialect.decimal == '.' ? "point" : "comma");
       }
     }
   }
-  return NULL;
-}
-
-// Refuses a file that two dialects read equally well with other values.
-static bool refuse_two_ways(const SbTextTable *table, const Sample *sample, const Fit *best,
-                            const Fit *rival, GPtrArray *issues) {
-  if (best->shape.cells != rival->shape.cells) {
-    sb_issues_add(issues, table->shown, 0, "separator", NULL,
-                  "is ambiguous: %zu columns with decimal commas or %zu columns separated by "
-                  "commas: write decimal points, or separate by semicolons",
-                  MIN(best->shape.cells, rival->shape.cells),
-                  MAX(best->shape.cells, rival->shape.cells));
-    return true;
-  }
-  g_autofree char *cell = ((best->shape.saw | rival->shape.saw) & SB_TEXT_TABLE_SAW_GROUPS) != 0
-                              ? find_two_ways(sample, best, rival)
-                              : NULL;
-  if (cell == NULL) {
-    return false;
-  }
-  const SbTextTableCell text = {cell, strlen(cell)};
-  double value[2] = {0};
-  (void)sb_text_table_number(&value[0], &text, &best->dialect, NULL);
-  (void)sb_text_table_number(&value[1], &text, &rival->dialect, NULL);
-  sb_issues_add(issues, table->shown, 0, "decimal", "point, comma",
-                "is ambiguous: \"%s\" is %g with a decimal %s, %g with a decimal %s", cell,
-                value[0], best->dialect.decimal == '.' ? "point" : "comma", value[1],
-                rival->dialect.decimal == '.' ? "point" : "comma");
   return true;
 }
 
@@ -312,29 +276,28 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
     }
   }
   if (best->score == 0) {
-    sb_issues_add(
-        issues, table->shown, 0, NULL, NULL, "%s",
+    return sb_issues_add(
+        issues, table->file->shown, 0, NULL, NULL, "%s",
         wish->matrix
             ? "contains no numbers"
             : "has no rows of two numbers or more, separated by tab, semicolon, comma or blank");
-    return false;
   }
-  return rival.score == 0 || !refuse_two_ways(table, sample, best, &rival, issues);
+  return rival.score == 0 || accept(table, sample, best, &rival, issues);
 }
 
 // ---- Blocks ----
 
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const char *line, size_t length,
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
                               const SbTextTableDialect *dialect, const SbTextTableShape *shape) {
   enum { NAMES_BYTES = 4096 };
   if (!row) {
-    const SbTextTableShape here = sb_text_table_shape(line, length, dialect);
+    const SbTextTableShape here = sb_text_table_shape(line, dialect);
     const int least = dialect->matrix ? 1 : MAX(2, count_bits(shape->numeric | shape->clocks) - 1);
     const bool numbers = !dialect->matrix && (here.numeric | here.clocks) != 0;
     const bool names = !numbers && count_bits(here.texts) >= least && !block->after_row;
     if (names && !block->after_names) {
       g_free(block->names);
-      block->names = g_strndup(line, MIN(length, NAMES_BYTES));
+      block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
     }
     block->after_names = names;
   }
@@ -343,202 +306,153 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const char *lin
 
 // Finds the line where the longest block of rows begins, and the names above the block.
 static void find_block(SbTextTable *table, const Sample *sample) {
-  enum { BLOCKS = 64 };
-  struct {
-    char *names;
+  typedef struct {
     size_t first, rows;
-  } seen[BLOCKS];
-  size_t count = 0, most = 0;
+  } Found;
+  g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+  size_t most = 0;
   SbTextTableBlock block = {0};
   table->header_lines = sample->head;
   for (size_t i = 0; i < sample->head; i++) {
     const GString *line = sample->line->pdata[i];
-    const SbTextTableShape shape = shape_of(line, &table->dialect);
+    const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
     const bool row =
-        is_row(&shape, &table->dialect) && same_shape(&shape, &table->shape, &table->dialect);
-    sb_text_table_block_next(&block, row, line->str, line->len, &table->dialect, &table->shape);
-    size_t at = 0;
-    while (row && at < count && g_strcmp0(seen[at].names, block.names) != 0) {
-      at++;
-    }
-    if (!row || at == BLOCKS) {
+        is_row(&shape, &table->dialect) && same_shape(&shape, &table->file->shape, &table->dialect);
+    sb_text_table_block_next(&block, row, line, &table->dialect, &table->file->shape);
+    if (!row) {
       continue;
     }
-    if (at == count) {
-      seen[count].names = g_strdup(block.names);
-      seen[count].rows = 0;
-      seen[count++].first = i;
+    const char *names = block.names != NULL ? block.names : "";
+    Found *found = g_hash_table_lookup(blocks, names);
+    if (found == NULL) {
+      found = g_new0(Found, 1);
+      found->first = i;
+      g_hash_table_insert(blocks, g_strdup(names), found);
     }
-    most = ++seen[at].rows > seen[most].rows ? at : most;
-  }
-  for (size_t at = 0; at < count; at++) {
-    if (at == most) {
-      table->header_lines = seen[at].first;
-      table->names = seen[at].names;
-    } else {
-      g_free(seen[at].names);
+    if (++found->rows > most) {
+      most = found->rows;
+      table->header_lines = found->first;
+      g_free(table->file->names);
+      table->file->names = g_strdup(block.names);
     }
   }
   g_free(block.names);
 }
 
-// Half as many names as cells, and no point anywhere: the comma may be both.
-static bool refuse_double_comma(const SbTextTable *table, const Sample *sample, const Fit *fit,
-                                const SbTextTableDialect *wish, GPtrArray *issues) {
+// Half as many names as cells, and no point anywhere: the comma may be both. False with an issue.
+static bool accept_commas(const SbTextTable *table, const Sample *sample, const Fit *fit,
+                          const SbTextTableDialect *wish, GPtrArray *issues) {
   if (fit->dialect.separator != ',' || (fit->shape.saw & SB_TEXT_TABLE_SAW_DECIMAL) != 0 ||
       table->header_lines == 0 || wish->separator != '\0' || wish->matrix) {
-    return false;
+    return true;
   }
   g_auto(GStrv) cells =
       sb_text_table_header_cells(table, sample->line->pdata[table->header_lines - 1]);
   const size_t names = g_strv_length(cells);
-  if (names < 2 || fit->shape.cells != 2 * names) {
-    return false;
-  }
-  sb_issues_add(
-      issues, table->shown, (int)table->header_lines + 1, "separator", NULL,
-      "is ambiguous: %zu cells a row separated by commas, or %zu numbers with "
-      "decimal commas under the %zu names of the header: export it with another separator",
-      fit->shape.cells, names, names);
-  return true;
+  return names < 2 || fit->shape.cells != 2 * names ||
+         sb_issues_add(
+             issues, table->file->shown, (int)table->header_lines + 1, "separator", NULL,
+             "is ambiguous: %zu cells a row separated by commas, or %zu numbers with "
+             "decimal commas under the %zu names of the header: export it with another separator",
+             fit->shape.cells, names, names);
 }
 
 // ---- The file ----
 
-static SbTextTableEncoding encoding_of(const SbTextTableBytes *bytes) {
-  size_t looked = MIN(bytes->length, ENCODING_BYTES);
-  if (bytes->file < 0) {
-    return find_encoding(bytes->bytes, looked, bytes->length);
+static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTableDialect *wish,
+                      GPtrArray *issues) {
+  Fit fit;
+  if (sample->wrong != NULL) {
+    return sb_issues_add(issues, table->file->shown, 0, NULL, NULL, "%s", sample->wrong);
   }
-  g_autofree guint8 *head = g_malloc0(ENCODING_BYTES);
-  const ssize_t got = pread(bytes->file, head, looked, 0);
-  return find_encoding(head, got > 0 ? (size_t)got : 0, bytes->length);
-}
-
-static bool recognise(SbTextTable *table, const SbTextTableDialect *wish, GPtrArray *issues) {
-  static const SbTextTableDialect nothing = {0};
-  wish = wish != NULL ? wish : &nothing;
-  table->dialect.encoding =
-      wish->encoding != SB_TEXT_TABLE_ANY_ENCODING ? wish->encoding : encoding_of(&table->bytes);
-  Sample sample = take_sample(table);
-  if (sample.wrong != NULL) {
-    sb_issues_add(issues, table->shown, 0, NULL, NULL, "%s", sample.wrong);
-    g_ptr_array_unref(sample.line);
+  if (!find_dialect(&fit, table, sample, wish, issues)) {
     return false;
   }
-  Fit fit;
-  bool good = find_dialect(&fit, table, &sample, wish, issues);
-  if (good) {
-    table->dialect = fit.dialect;
-    table->shape = fit.shape;
-    table->columns = MIN(fit.shape.cells, SB_TEXT_TABLE_COLUMNS_MAX);
-    for (size_t i = 0; i < table->columns; i++) {
-      table->column[i] = (SbTextTableColumn){.name = g_strdup(""),
-                                             .unit = g_strdup(""),
-                                             .numeric = (fit.shape.numeric >> i & 1) != 0,
-                                             .clock = (fit.shape.clocks >> i & 1) != 0};
-    }
-    find_block(table, &sample);
-    if (refuse_double_comma(table, &sample, &fit, wish, issues)) {
-      good = false;
-    } else {
-      sb_text_table_take_header(table, (GString *const *)sample.line->pdata, table->header_lines);
-      // Marks between thousands are taken where a decimal mark tells them apart.
-      const bool grouped = (fit.shape.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
-      if (!grouped && fit.shape.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
-        table->dialect.thousands = '\0';
-      }
-    }
+  table->dialect = fit.dialect;
+  table->file->shape = fit.shape;
+  table->columns = MIN(fit.shape.cells, SB_TEXT_TABLE_COLUMNS_MAX);
+  for (size_t i = 0; i < table->columns; i++) {
+    table->column[i] = (SbTextTableColumn){.name = g_strdup(""),
+                                           .unit = g_strdup(""),
+                                           .numeric = (fit.shape.numeric >> i & 1) != 0,
+                                           .clock = (fit.shape.clocks >> i & 1) != 0};
   }
+  find_block(table, sample);
+  if (!accept_commas(table, sample, &fit, wish, issues)) {
+    return false;
+  }
+  sb_text_table_take_header(table, (GString *const *)sample->line->pdata, table->header_lines);
+  // Marks between thousands are taken where a decimal mark tells them apart.
+  const bool grouped = (fit.shape.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
+  if (!grouped && fit.shape.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
+    table->dialect.thousands = '\0';
+  }
+  return true;
+}
+
+// Recognises the table in a stream; NULL with an issue.
+static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const char *shown,
+                             const SbTextTableDialect *wish, GPtrArray *issues) {
+  static const SbTextTableDialect nothing = {0};
+  g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
+  table->file = g_new0(SbTextTableFile, 1);
+  *table->file = (SbTextTableFile){
+      .shown = g_strdup(shown), .bytes = {.stream = stream, .length = length}, .owned = owned};
+  wish = wish != NULL ? wish : &nothing;
+  find_lines(&table->file->bytes, wish->encoding);
+  table->dialect.encoding = table->file->bytes.encoding;
+  const Sample sample = take_sample(&table->file->bytes);
+  const bool good = recognise(table, &sample, wish, issues);
   g_ptr_array_unref(sample.line);
-  return good;
+  return good ? g_steal_pointer(&table) : NULL;
 }
 
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues) {
-  g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
-  table->shown = g_strdup(name);
-  table->bytes = (SbTextTableBytes){-1, length > 0 ? bytes : (const guint8 *)"", length};
-  return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
+  FILE *stream = fmemopen((void *)(length > 0 ? bytes : ""), MAX(length, 1), "r");
+  return table_of(stream, length, NULL, name, wish, issues);
 }
 
 SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
                                 GPtrArray *issues) {
-  g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
-  table->shown = g_strdup(path);
-  table->bytes.file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+  const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat info;
-  if (table->bytes.file < 0 || fstat(table->bytes.file, &info) != 0) {
+  size_t length = 0;
+  char *owned = NULL;
+  FILE *stream = NULL;
+  if (file < 0 || fstat(file, &info) != 0) {
     sb_issues_add(issues, path, 0, NULL, NULL, "%s", g_strerror(errno));
   } else if (S_ISFIFO(info.st_mode) && sb_reader_reads_pipes()) {
-    size_t length = 0;
-    g_autofree char *text =
-        sb_reader_load_stream(&length, table->bytes.file, path, PIPE_BYTES, issues);
-    SbTextTable *piped =
-        text != NULL ? sb_text_table_parse(text, length, wish, path, issues) : NULL;
-    if (piped != NULL) {
-      piped->owned = g_steal_pointer(&text);
-    }
-    return piped;
+    owned = sb_reader_load_stream(&length, file, path, PIPE_BYTES, issues);
+    stream = owned != NULL ? fmemopen(owned, MAX(length, 1), "r") : NULL;
   } else if (!S_ISREG(info.st_mode)) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is not a regular file");
   } else if (info.st_size == 0) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is empty");
   } else {
     sb_output_note_input(&info);
-    table->bytes.length = (size_t)info.st_size;
-    return recognise(table, wish, issues) ? g_steal_pointer(&table) : NULL;
+    length = (size_t)info.st_size;
+    stream = fdopen(file, "r");
   }
-  return NULL;
+  if (file >= 0 && (stream == NULL || owned != NULL)) {
+    close(file);
+  }
+  return stream != NULL ? table_of(stream, length, owned, path, wish, issues) : NULL;
 }
 
 void sb_text_table_free(SbTextTable *table) {
   if (table == NULL) {
     return;
   }
-  if (table->bytes.file >= 0) {
-    close(table->bytes.file);
-  }
-  g_free(table->owned);
-  g_free(table->names);
+  fclose(table->file->bytes.stream);
+  g_free(table->file->owned);
+  g_free(table->file->names);
+  g_free(table->file->shown);
+  g_free(table->file);
   g_strfreev(table->header);
   for (size_t i = 0; i < table->columns; i++) {
     g_free(table->column[i].name);
     g_free(table->column[i].unit);
   }
-  g_free(table->shown);
   g_free(table);
-}
-
-const SbTextTableDialect *sb_text_table_dialect(const SbTextTable *table) {
-  return &table->dialect;
-}
-
-size_t sb_text_table_columns(const SbTextTable *table) {
-  return table->columns;
-}
-
-const SbTextTableColumn *sb_text_table_column(const SbTextTable *table, size_t index) {
-  return &table->column[index];
-}
-
-size_t sb_text_table_header_lines(const SbTextTable *table) {
-  return table->header_lines;
-}
-
-char *const *sb_text_table_header(const SbTextTable *table) {
-  return table->header;
-}
-
-void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, const char *unit) {
-  SbTextTableColumn *column = &table->column[index];
-  if (name != NULL) {
-    g_free(column->name);
-    column->name = g_strdup(name);
-  }
-  if (unit != NULL) {
-    g_free(column->unit);
-    const char *known = sb_text_table_unit(unit);
-    column->unit = g_strdup(known != NULL ? known : unit);
-  }
 }

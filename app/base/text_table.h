@@ -31,12 +31,11 @@ typedef enum {
   SB_TEXT_TABLE_LATIN1, // also Windows-1252, for letters and µ
   SB_TEXT_TABLE_UTF16LE,
   SB_TEXT_TABLE_UTF16BE,
-  SB_TEXT_TABLE_SHIFT_JIS,
-  SB_TEXT_TABLE_ENCODING_COUNT
+  SB_TEXT_TABLE_SHIFT_JIS
 } SbTextTableEncoding;
 
-// Returns "utf-8", "latin-1", "utf-16le", "utf-16be" or "shift-jis". Static.
-const char *sb_text_table_encoding_name(SbTextTableEncoding encoding);
+// Names of the encodings for users, "any" first, ended by NULL.
+extern const char *const sb_text_table_encodings[];
 
 // Format of a table.
 typedef struct {
@@ -58,7 +57,15 @@ typedef struct {
   bool clock;   // its cells are times of day
 } SbTextTableColumn;
 
-typedef struct SbTextTable SbTextTable;
+// A table. All but names and units of columns is read-only.
+typedef struct {
+  SbTextTableDialect dialect;
+  char **header;       // lines above the first row as UTF-8, without comment signs, ended by NULL
+  size_t header_lines; // number of lines before the first row
+  size_t columns;
+  SbTextTableColumn column[SB_TEXT_TABLE_COLUMNS_MAX]; // [columns]
+  struct SbTextTableFile *file;                        // internal
+} SbTextTable;
 
 // Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
 // Returns NULL with one issue if it cannot be read or is not a table. Freed by
@@ -74,25 +81,6 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
 // Frees a table and closes its file.
 void sb_text_table_free(SbTextTable *table);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTextTable, sb_text_table_free)
-
-// Returns the format.
-const SbTextTableDialect *sb_text_table_dialect(const SbTextTable *table);
-
-// Returns the number of columns.
-size_t sb_text_table_columns(const SbTextTable *table);
-
-// Returns column `index`, from 0.
-const SbTextTableColumn *sb_text_table_column(const SbTextTable *table, size_t index);
-
-// Returns the number of lines before the first row.
-size_t sb_text_table_header_lines(const SbTextTable *table);
-
-// Returns the lines above the first row as UTF-8, without comment signs, ended by NULL. Owned by
-// the table.
-char *const *sb_text_table_header(const SbTextTable *table);
-
-// Replaces name and unit of a column (each copied; NULL: unchanged).
-void sb_text_table_rename(SbTextTable *table, size_t index, const char *name, const char *unit);
 
 // Largest number of rows.
 enum { SB_TEXT_TABLE_ROWS_MAX = 50000000 };

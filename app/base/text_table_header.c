@@ -9,9 +9,9 @@ enum { HEADER_LINES = 1000, HEADER_BYTES = 4096 };
 // ---- Units ----
 
 static const struct {
-  const char *unit, *also;
+  const char *unit, *all; // all spellings between bars
 } known_units[] = {
-#define SB_TEXT_UNIT(unit, also) {unit, also},
+#define SB_TEXT_UNIT(unit, also) {unit, "|" unit "|" also "|"},
 #include "app/base/text_table_units.def"
 #undef SB_TEXT_UNIT
 };
@@ -27,9 +27,7 @@ const char *sb_text_table_unit(const char *text) {
   }
   g_autofree char *entry = g_strconcat("|", folded, "|", NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(known_units) && *folded != '\0'; i++) {
-    g_autofree char *also =
-        g_strconcat("|", known_units[i].unit, "|", known_units[i].also, "|", NULL);
-    g_autofree char *all = g_utf8_strdown(also, -1);
+    g_autofree char *all = g_utf8_strdown(known_units[i].all, -1);
     if (strchr(folded, '|') == NULL && strstr(all, entry) != NULL) {
       return known_units[i].unit;
     }
@@ -97,68 +95,55 @@ static void split_name(char **name, char **unit, const char *text) {
   *unit = *unit != NULL ? *unit : g_strdup("");
 }
 
-static void add_cell(GPtrArray *out, const char *text, size_t length,
-                     SbTextTableEncoding encoding) {
-  g_autofree char *cell = sb_text_table_utf8(text, length, encoding);
+static void add_cell(GPtrArray *out, const char *text, size_t length) {
+  g_autofree char *cell = sb_printable(text, length);
   g_auto(GStrv) parts = g_strsplit(cell, "\"\"", -1);
   g_ptr_array_add(out, g_strjoinv("\"", parts));
 }
 
 // Cells of a header line with a separator; 0 for two blanks or more.
-static GPtrArray *cells_by(const char *line, size_t length, char separator,
-                           SbTextTableEncoding encoding) {
-  GPtrArray *out = g_ptr_array_new_with_free_func(g_free);
+static char **cells_by(const char *line, size_t length, char separator) {
+  GPtrArray *out = g_ptr_array_new();
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-  if (separator != '\0') {
-    const size_t cells = sb_text_table_split(cell, line, length, separator);
-    for (size_t i = 0; i < cells; i++) {
-      add_cell(out, cell[i].text, cell[i].length, encoding);
-      const char *text = out->pdata[out->len - 1];
-      // A unit between blanks is part of the name before it.
-      if (separator == ' ' && out->len > 1 && *text != '\0' && strchr("[(", *text) != NULL) {
-        g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
-        g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
-        g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
-      }
+  const size_t cells = separator != '\0' ? sb_text_table_split(cell, line, length, separator) : 0;
+  for (size_t i = 0; i < cells; i++) {
+    add_cell(out, cell[i].text, cell[i].length);
+    char *text = out->pdata[out->len - 1];
+    // A unit between blanks is part of the name before it.
+    if (separator == ' ' && out->len > 1 && *text != '\0' && strchr("[(", *text) != NULL) {
+      g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
+      g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
+      g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
     }
-    return out;
   }
-  g_autofree char *copy = g_strndup(line, length);
+  g_autofree char *copy = g_strndup(line, separator == '\0' ? length : 0);
   g_auto(GStrv) parts = g_strsplit(copy, "  ", -1);
   for (char **part = parts; *part != NULL; part++) {
     g_strstrip(*part);
     if (**part != '\0') {
-      add_cell(out, *part, strlen(*part), encoding);
+      add_cell(out, *part, strlen(*part));
     }
   }
-  return out;
+  g_ptr_array_add(out, NULL);
+  return (char **)g_ptr_array_free(out, FALSE);
 }
 
 // With the separator of the rows; if that gives another number of cells than the rows have, with
 // the first one that gives it.
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line) {
-  const char separators[] = {table->dialect.separator, '\t', ';', ',', '\0'};
+  static const char separators[] = {'\t', ';', ',', '\0'};
   size_t length = MIN(line->len, HEADER_BYTES), skip = 0;
   while (skip < length && memchr("#%! ", line->str[skip], skip > 0 ? 4 : 3) != NULL) {
     skip++;
   }
-  GPtrArray *best = NULL;
-  for (size_t i = 0; i < G_N_ELEMENTS(separators); i++) {
-    GPtrArray *cells =
-        cells_by(line->str + skip, length - skip, separators[i], table->dialect.encoding);
-    const bool fits = cells->len == table->columns;
-    if (best == NULL || fits) {
-      g_clear_pointer(&best, g_ptr_array_unref);
-      best = g_ptr_array_ref(cells);
-    }
-    g_ptr_array_unref(cells);
-    if (fits) {
-      break;
-    }
+  char **best = cells_by(line->str + skip, length - skip, table->dialect.separator);
+  for (size_t i = 0; i < sizeof separators && g_strv_length(best) != table->columns; i++) {
+    char **other = cells_by(line->str + skip, length - skip, separators[i]);
+    const bool fits = g_strv_length(other) == table->columns;
+    g_strfreev(fits ? best : other);
+    best = fits ? other : best;
   }
-  g_ptr_array_add(best, NULL);
-  g_ptr_array_set_free_func(best, NULL);
-  return (char **)g_ptr_array_free(best, FALSE);
+  return best;
 }
 
 // Most cells are units.
@@ -210,7 +195,7 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
   enum { LOOKED = 12 };
   bool named = false, united = false, stopped = false;
   for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
-    const SbTextTableShape shape = sb_text_table_shape(line[i]->str, line[i]->len, &table->dialect);
+    const SbTextTableShape shape = sb_text_table_shape(line[i], &table->dialect);
     g_auto(GStrv) cells = sb_text_table_header_cells(table, line[i]);
     const bool units = are_units(cells), titled = names_columns(table, cells);
     // The rows of a block above, or the first line above the names that is not units, end it.
@@ -235,7 +220,7 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
       text++;
     }
     g_strdelimit(text, "\t", ' ');
-    g_ptr_array_add(texts, sb_text_table_utf8(text, strlen(text), table->dialect.encoding));
+    g_ptr_array_add(texts, sb_printable(text, strlen(text)));
   }
   g_ptr_array_add(texts, NULL);
   table->header = (char **)g_ptr_array_free(texts, FALSE);

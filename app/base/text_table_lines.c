@@ -1,143 +1,96 @@
-// Lines of a table's bytes; see text_table_private.h.
+// Lines of a table's bytes, in UTF-8; see text_table_private.h.
 #include "app/base/text_table_private.h"
 
 #include <errno.h>
 #include <string.h>
-#include <unistd.h>
 
-enum { PIECE = 1 << 18 };
-
-static bool refuse(SbTextTableLines *lines, const char *why) {
-  lines->wrong = why;
-  lines->left = 0;
-  return false;
+static bool is_wide(const SbTextTableBytes *bytes) {
+  return bytes->encoding == SB_TEXT_TABLE_UTF16LE || bytes->encoding == SB_TEXT_TABLE_UTF16BE;
 }
 
-// Reads on behind what is at hand, which moves to the start of the piece; false where nothing is
-// left.
-static bool read_on(SbTextTableLines *lines) {
-  const size_t kept = (size_t)(lines->end - lines->at);
-  if (lines->left == 0) {
-    return false;
-  }
-  if (kept >= SB_TEXT_TABLE_LINE_MAX) {
-    return refuse(lines, "has a line of more than 16 MiB");
-  }
-  if (lines->piece != NULL) {
-    memmove(lines->piece, lines->at, kept);
-  }
-  if (2 * kept >= lines->room) {
-    lines->room = MAX(2 * lines->room, PIECE);
-    lines->piece = g_realloc(lines->piece, lines->room);
-  }
-  ssize_t got;
-  do {
-    got = pread(lines->bytes->file, lines->piece + kept, MIN(lines->room - kept, lines->left),
-                (off_t)(lines->bytes->length - lines->left));
-  } while (got < 0 && errno == EINTR);
-  lines->at = lines->piece;
-  lines->end = lines->piece + kept + MAX(got, 0);
-  lines->left -= (size_t)MAX(got, 0);
-  return got > 0 || refuse(lines, got < 0 ? g_strerror(errno) : "was cut short while it was read");
-}
-
-void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from,
-                              SbTextTableEncoding encoding) {
-  const bool wide = encoding == SB_TEXT_TABLE_UTF16LE || encoding == SB_TEXT_TABLE_UTF16BE;
-  *lines = (SbTextTableLines){.bytes = bytes,
-                              .encoding = encoding,
-                              .line_end = '\n',
-                              .wide = wide ? g_string_new(NULL) : NULL};
-  if (bytes->file < 0) {
-    lines->at = bytes->bytes + from;
-    lines->end = bytes->bytes + bytes->length;
-  } else {
-    lines->left = bytes->length - from;
-    (void)read_on(lines);
-  }
-  const size_t length = (size_t)(lines->end - lines->at);
-  if (wide && length >= 2) {
-    const int first = encoding == SB_TEXT_TABLE_UTF16LE ? 0 : 1;
-    lines->at += lines->at[first] == 0xff && lines->at[1 - first] == 0xfe ? 2 : 0;
-  } else if (length >= 3 && memcmp(lines->at, "\xef\xbb\xbf", 3) == 0) {
-    lines->at += 3;
-  }
-  if (!wide) {
-    const size_t looked = MIN((size_t)(lines->end - lines->at), 65536);
-    const bool old = looked > 0 && memchr(lines->at, '\n', looked) == NULL &&
-                     memchr(lines->at, '\r', looked) != NULL;
-    lines->line_end = old ? '\r' : '\n';
-  }
+void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from) {
+  char mark[3] = "";
+  *lines = (SbTextTableLines){.bytes = bytes, .line = g_string_new(NULL)};
+  (void)fseeko(bytes->stream, (off_t)from, SEEK_SET);
+  const size_t got = fread(mark, 1, sizeof mark, bytes->stream);
+  const bool wide = got >= 2 && is_wide(bytes) &&
+                    (memcmp(mark, "\xff\xfe", 2) == 0 || memcmp(mark, "\xfe\xff", 2) == 0);
+  from += wide ? 2 : got == 3 && memcmp(mark, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+  (void)fseeko(bytes->stream, (off_t)from, SEEK_SET);
+  lines->left = bytes->length - MIN(from, bytes->length);
 }
 
 void sb_text_table_lines_clear(SbTextTableLines *lines) {
-  g_free(lines->piece);
-  if (lines->wide != NULL) {
-    g_string_free(lines->wide, TRUE);
-  }
+  g_string_free(lines->line, TRUE);
 }
 
 size_t sb_text_table_lines_place(const SbTextTableLines *lines) {
-  return lines->bytes->length - lines->left - (size_t)(lines->end - lines->at);
+  return lines->bytes->length - lines->left;
 }
 
-static void next_wide(SbTextTableLines *lines) {
-  const int low = lines->encoding == SB_TEXT_TABLE_UTF16LE ? 0 : 1;
-  GString *out = lines->wide;
-  g_string_truncate(out, 0);
-  while (lines->end - lines->at >= 2 || read_on(lines)) {
-    if (lines->end - lines->at < 2) {
-      continue;
-    }
-    const guint unit = (guint)lines->at[low] | (guint)lines->at[1 - low] << 8;
-    lines->at += 2;
-    if (unit == '\n') {
-      return;
-    }
-    if (out->len >= SB_TEXT_TABLE_LINE_MAX) {
-      (void)refuse(lines, "has a line of more than 16 MiB");
-      break;
-    }
-    if (unit < 0x80) {
-      g_string_append_c(out, (char)unit);
-    } else {
-      g_string_append_unichar(out, unit >= 0xd800 && unit < 0xe000 ? '?' : unit);
-    }
+// The next byte, or unit of UTF-16; EOF at the end, or with bytes left where they cannot be read.
+static int next_unit(SbTextTableLines *lines) {
+  FILE *stream = lines->bytes->stream;
+  const size_t size = is_wide(lines->bytes) ? 2 : 1;
+  if (lines->left < size) {
+    lines->left = 0;
+    return EOF;
   }
-  lines->at = lines->end;
+  const int one = getc_unlocked(stream), two = size > 1 ? getc_unlocked(stream) : 0;
+  if (one == EOF || two == EOF) {
+    return EOF;
+  }
+  lines->left -= size;
+  return lines->bytes->encoding == SB_TEXT_TABLE_UTF16BE ? one << 8 | two : one | two << 8;
 }
 
-// Up to the line's end, or the last byte's.
-static const guint8 *find_end(SbTextTableLines *lines) {
-  for (size_t looked = 0;;) {
-    const size_t known = (size_t)(lines->end - lines->at);
-    const guint8 *stop =
-        known > looked ? memchr(lines->at + looked, lines->line_end, known - looked) : NULL;
-    if (stop != NULL || !read_on(lines)) {
-      return stop;
-    }
-    looked = known;
+// Converts bytes of an old encoding; without one of their codes, each byte is a character.
+static void convert(GString *line, SbTextTableEncoding encoding) {
+  gsize length;
+  g_autofree char *old = g_strndup(line->str, line->len);
+  const gsize old_length = line->len;
+  g_autofree char *known =
+      g_convert(old, (gssize)old_length, "UTF-8",
+                encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252" : "CP932", NULL, &length, NULL);
+  g_string_truncate(line, 0);
+  g_string_append_len(line, known, known != NULL ? (gssize)length : 0);
+  for (gsize i = 0; known == NULL && i < old_length; i++) {
+    g_string_append_unichar(line, (guchar)old[i]);
   }
 }
 
-bool sb_text_table_next(SbTextTableLines *lines, const char **text, size_t *length) {
-  if (lines->wrong != NULL || (lines->at >= lines->end && !read_on(lines))) {
-    return false;
+const GString *sb_text_table_next(SbTextTableLines *lines) {
+  const SbTextTableBytes *bytes = lines->bytes;
+  const bool wide = is_wide(bytes);
+  bool high = false;
+  int unit = EOF;
+  if (lines->wrong != NULL || lines->left == 0) {
+    return NULL;
   }
   lines->number++;
-  if (lines->wide != NULL) {
-    next_wide(lines);
-    *text = lines->wide->str;
-    *length = lines->wide->len;
-  } else {
-    const guint8 *stop = find_end(lines);
-    const guint8 *last = stop != NULL ? stop : lines->end;
-    *text = (const char *)lines->at;
-    *length = (size_t)(last - lines->at);
-    lines->at = stop != NULL ? stop + 1 : lines->end;
+  g_string_truncate(lines->line, 0);
+  while (lines->line->len < SB_TEXT_TABLE_LINE_MAX && (unit = next_unit(lines)) != EOF &&
+         unit != bytes->line_end) {
+    high |= unit >= 0x80;
+    if (wide && unit >= 0x80) {
+      g_string_append_unichar(lines->line, unit >= 0xd800 && unit < 0xe000 ? '?' : (gunichar)unit);
+    } else {
+      g_string_append_c(lines->line, (char)unit);
+    }
   }
-  while (*length > 0 && (*text)[*length - 1] == '\r') {
-    --*length;
+  if (lines->line->len >= SB_TEXT_TABLE_LINE_MAX || (unit == EOF && lines->left > 0)) {
+    lines->wrong = unit != EOF             ? "has a line of more than 64 MiB"
+                   : ferror(bytes->stream) ? g_strerror(errno)
+                                           : "was cut short while it was read";
+    return NULL;
   }
-  return lines->wrong == NULL;
+  while (lines->line->len > 0 && lines->line->str[lines->line->len - 1] == '\r') {
+    g_string_truncate(lines->line, lines->line->len - 1);
+  }
+  const bool old =
+      bytes->encoding == SB_TEXT_TABLE_LATIN1 || bytes->encoding == SB_TEXT_TABLE_SHIFT_JIS;
+  if (old && high && !g_utf8_validate(lines->line->str, (gssize)lines->line->len, NULL)) {
+    convert(lines->line, bytes->encoding); // programs mix encodings
+  }
+  return lines->line;
 }

@@ -3,43 +3,38 @@
 
 #include "app/base/text_table.h"
 
-// The bytes of a table: in memory, or in a file that is read piece by piece. (A memory map would
-// crash if another program truncates the file.)
+#include <stdio.h>
+
+// The bytes of a table. (A memory map would crash if another program truncates the file.)
 typedef struct {
-  int file;            // descriptor; -1: in memory
-  const guint8 *bytes; // [length] in memory; NULL: a file
-  size_t length;
+  FILE *stream;  // of the file, or of bytes in memory
+  size_t length; // of the file when it was opened
+  SbTextTableEncoding encoding;
+  char line_end; // '\n', or '\r' for files without newlines
 } SbTextTableBytes;
 
-// Longest line [bytes].
-enum { SB_TEXT_TABLE_LINE_MAX = 1 << 24 };
+// Longest line in UTF-8 [bytes].
+enum { SB_TEXT_TABLE_LINE_MAX = 1 << 26 };
 
-// Reads a text in any of the encodings line by line. Initialised by sb_text_table_lines_init(),
+// Reads the bytes line by line; one reader at a time. Initialised by sb_text_table_lines_init(),
 // freed by sb_text_table_lines_clear().
 typedef struct {
   const SbTextTableBytes *bytes;
-  const guint8 *at, *end; // bytes that are available
-  size_t left;            // bytes of the file after those
-  guint8 *piece;          // buffer for a file; NULL in memory
-  size_t room;            // its size
-  SbTextTableEncoding encoding;
-  char line_end;     // '\n', or '\r' for files without newlines
+  size_t left;       // bytes that are not read yet
   int number;        // of the line last read, from 1
-  GString *wide;     // a line of UTF-16 converted to UTF-8; else NULL
+  GString *line;     // that line
   const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
 } SbTextTableLines;
 
 // Starts to read at byte `from`. `bytes` is borrowed.
-void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from,
-                              SbTextTableEncoding encoding);
+void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from);
 
-// Frees the buffers.
+// Frees the buffer.
 void sb_text_table_lines_clear(SbTextTableLines *lines);
 
-// Writes the next line without its end, borrowed until the next call: for UTF-16 converted to
-// UTF-8, else the bytes of the file. Returns false at the end, or with `wrong` set if the file
-// cannot be read.
-bool sb_text_table_next(SbTextTableLines *lines, const char **text, size_t *length);
+// Returns the next line in UTF-8 without its end, borrowed until the next call. NULL at the end, or
+// with `wrong` set if the file cannot be read.
+const GString *sb_text_table_next(SbTextTableLines *lines);
 
 // Returns the offset of the next line [bytes].
 size_t sb_text_table_lines_place(const SbTextTableLines *lines);
@@ -93,8 +88,7 @@ typedef struct {
 } SbTextTableShape;
 
 // Returns the kinds of a line's cells in this dialect; of a comment or an empty line all 0.
-SbTextTableShape sb_text_table_shape(const char *line, size_t length,
-                                     const SbTextTableDialect *dialect);
+SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDialect *dialect);
 
 // Where a line is among the blocks of a file.
 typedef struct {
@@ -103,20 +97,17 @@ typedef struct {
 } SbTextTableBlock;
 
 // Moves to the next line: `row` states whether it is a row like those of `shape`.
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const char *line, size_t length,
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
                               const SbTextTableDialect *dialect, const SbTextTableShape *shape);
 
-struct SbTextTable {
+// Where a table is read from.
+typedef struct SbTextTableFile {
   char *shown; // the file, for messages
   SbTextTableBytes bytes;
-  char *owned; // memory of the bytes of a pipe; else NULL
-  SbTextTableDialect dialect;
+  char *owned;            // memory of the bytes of a pipe; else NULL
   SbTextTableShape shape; // of its rows
   char *names;            // line of names above its rows, as in the file; NULL: none
-  char **header;          // lines above the first row, ended by NULL
-  size_t columns, header_lines;
-  SbTextTableColumn column[SB_TEXT_TABLE_COLUMNS_MAX];
-};
+} SbTextTableFile;
 
 // Fills the table's header, and names and units of its columns, from the lines line[count] (of
 // GString) above its rows.
@@ -124,6 +115,3 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
 
 // Returns the cells of a header line as UTF-8, ended by NULL.
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line);
-
-// Returns a piece of a line as printable UTF-8.
-char *sb_text_table_utf8(const char *text, size_t length, SbTextTableEncoding encoding);

@@ -28,19 +28,6 @@ static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
   return true;
 }
 
-static bool grow(double **value, size_t count, size_t *room, size_t wanted) {
-  const size_t next = MIN(wanted, SB_TEXT_TABLE_ROWS_MAX);
-  for (size_t k = 0; k < count; k++) {
-    double *more = g_try_realloc_n(value[k], next, sizeof(double));
-    if (more == NULL) {
-      return false;
-    }
-    value[k] = more;
-  }
-  *room = next;
-  return true;
-}
-
 // The cells of a line.
 typedef struct {
   size_t cells;
@@ -51,10 +38,10 @@ typedef struct {
 // Reads the requested columns of a line to row[count]. Returns a static text that states what is
 // wrong with the file, or NULL.
 static const char *read_line(Line *out, double *row, Days *days, const SbTextTable *table,
-                             const size_t *column, size_t count, const char *text, size_t length) {
+                             const size_t *column, size_t count, const GString *text) {
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
   const char *wrong = NULL;
-  const size_t cells = sb_text_table_split(cell, text, length, table->dialect.separator);
+  const size_t cells = sb_text_table_split(cell, text->str, text->len, table->dialect.separator);
   *out = (Line){.cells = cells, .good = cells <= table->columns};
   for (size_t k = 0; k < count && cells <= table->columns; k++) {
     const size_t at = column[k];
@@ -77,32 +64,20 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
-// Counts a line that is omitted, and stores the text of the first one.
-static void leave_out(SbTextTableRows *out, const Line *line, const SbTextTable *table,
-                      const SbTextTableLines *lines, const char *text, size_t length) {
-  const bool damaged =
-      !line->good && (memchr(text, '\0', length) != NULL ||
-                      (line->cells == table->columns && line->any && line->unreadable == 1));
-  out->damaged += damaged;
-  const bool left = line->cells > 0 && (damaged || !line->good); // not empty in these columns only
-  out->skipped += left && !damaged;
-  if (left && out->left_text == NULL) {
-    out->left_line = lines->number;
-    out->left_text = sb_text_table_utf8(text, length, table->dialect.encoding);
+// Doubles the room for rows. Returns a static text that states what is wrong, or NULL.
+static const char *make_room(double **value, size_t count, size_t *room) {
+  if (*room == SB_TEXT_TABLE_ROWS_MAX) {
+    return "has too many rows";
   }
-}
-
-// Makes room for the rows that are expected. Returns a static text that states what is wrong, or
-// NULL.
-static const char *make_room(double **value, size_t count, size_t *room, size_t rows,
-                             const SbTextTable *table, const SbTextTableLines *lines) {
-  // The bytes that are left, at the length of lines so far, are a good guess.
-  const double done = (double)sb_text_table_lines_place(lines), all = (double)table->bytes.length;
-  const double guess = *room == 0 ? 1024 : 1.05 * (double)rows * all / done + 16;
-  return *room == SB_TEXT_TABLE_ROWS_MAX ? "has too many rows"
-         : grow(value, count, room, (size_t)fmin(fmax(guess, (double)*room + 1024), 1e15))
-             ? NULL
-             : "there is no memory for its rows";
+  *room = MIN(MAX(2 * *room, 1024), SB_TEXT_TABLE_ROWS_MAX);
+  for (size_t k = 0; k < count; k++) {
+    double *more = g_try_realloc_n(value[k], *room, sizeof(double));
+    if (more == NULL) {
+      return "there is no memory for its rows";
+    }
+    value[k] = more;
+  }
+  return NULL;
 }
 
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
@@ -114,36 +89,42 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableLines lines;
-  SbTextTableBlock block = {.names = g_strdup(table->names)};
-  const char *text, *wrong = NULL;
-  size_t length, room = 0;
-  sb_text_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
-  while (wrong == NULL && sb_text_table_next(&lines, &text, &length)) {
+  SbTextTableBlock block = {.names = g_strdup(table->file->names)};
+  const char *wrong = NULL;
+  const GString *text;
+  size_t room = 0;
+  sb_text_table_lines_init(&lines, &table->file->bytes, 0);
+  while (wrong == NULL && (text = sb_text_table_next(&lines)) != NULL) {
     if ((size_t)lines.number <= table->header_lines) {
       continue;
     }
     Line line = {0};
-    if (length > 0 && memchr("#%!", *text, 3) == NULL) {
-      wrong = read_line(&line, row, days, table, column, count, text, length);
+    if (text->len > 0 && memchr("#%!", *text->str, 3) == NULL) {
+      wrong = read_line(&line, row, days, table, column, count, text);
     }
     const bool like = line.good && line.any;
-    sb_text_table_block_next(&block, like, text, length, &table->dialect, &table->shape);
-    if (!like || (block.names != NULL && g_strcmp0(block.names, table->names) != 0)) {
-      line.good &= !like; // a row of another block
-      leave_out(out, &line, table, &lines, text, length);
-      continue;
+    sb_text_table_block_next(&block, like, text, &table->dialect, &table->file->shape);
+    if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
+      if (wrong == NULL && out->rows == room) {
+        wrong = make_room(value, count, &room);
+      }
+      for (size_t k = 0; k < count && wrong == NULL; k++) {
+        value[k][out->rows] = row[k];
+      }
+      out->rows += wrong == NULL;
+    } else if (line.cells > 0 && (like || !line.good)) { // not empty in these columns only
+      const bool damaged = memchr(text->str, '\0', text->len) != NULL ||
+                           (line.cells == table->columns && line.any && line.unreadable == 1);
+      *(damaged ? &out->damaged : &out->skipped) += 1;
+      if (out->left_text == NULL) {
+        out->left_line = lines.number;
+        out->left_text = sb_printable(text->str, text->len);
+      }
     }
-    if (wrong == NULL && out->rows == room) {
-      wrong = make_room(value, count, &room, out->rows, table, &lines);
-    }
-    for (size_t k = 0; k < count && wrong == NULL; k++) {
-      value[k][out->rows] = row[k];
-    }
-    out->rows += wrong == NULL;
   }
   wrong = wrong != NULL ? wrong : lines.wrong;
   if (wrong != NULL) {
-    sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "%s", wrong);
+    sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL, "%s", wrong);
     for (size_t k = 0; k < count; k++) {
       g_clear_pointer(&value[k], g_free);
     }
@@ -156,13 +137,13 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
 
 // Appends the numbers of a line. Returns their number, without empty cells at the end beyond
 // `columns`; -1: a cell is not a number.
-static gssize append_cells(GArray *out, const char *text, size_t length, size_t columns,
-                           size_t most, const SbTextTableDialect *dialect) {
-  const char *at = text;
+static gssize append_cells(GArray *out, const GString *line, size_t columns, size_t most,
+                           const SbTextTableDialect *dialect) {
+  const char *at = line->str;
   SbTextTableCell cell;
   const guint begin = out->len;
   size_t count = 0, filled = 0;
-  for (; count <= most && sb_text_table_cell(&cell, &at, text + length, dialect->separator);
+  for (; count <= most && sb_text_table_cell(&cell, &at, line->str + line->len, dialect->separator);
        count++) {
     double value;
     if (!sb_text_table_number(&value, &cell, dialect, NULL)) {
@@ -180,17 +161,16 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
   SbTextTableLines lines;
-  const char *text;
-  size_t length;
+  const GString *text;
   bool good = true;
-  sb_text_table_lines_init(&lines, &table->bytes, 0, table->dialect.encoding);
-  while (good && sb_text_table_next(&lines, &text, &length)) {
-    if ((size_t)lines.number <= table->header_lines || length == 0 ||
-        memchr("#%!", *text, 3) != NULL) {
+  sb_text_table_lines_init(&lines, &table->file->bytes, 0);
+  while (good && (text = sb_text_table_next(&lines)) != NULL) {
+    if ((size_t)lines.number <= table->header_lines || text->len == 0 ||
+        memchr("#%!", *text->str, 3) != NULL) {
       continue;
     }
-    const size_t columns = out->rows > 0 ? out->columns : table->shape.cells;
-    const gssize count = append_cells(out->value, text, length, columns, most, &table->dialect);
+    const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;
+    const gssize count = append_cells(out->value, text, columns, most, &table->dialect);
     if (count > 0) {
       out->columns = out->rows == 0 ? (size_t)count : out->columns;
       out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines.number : out->ragged;
@@ -198,16 +178,15 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
     }
     good = count >= 0 && (size_t)count <= most && out->value->len <= 3 * most;
     if (count < 0) {
-      g_autofree char *shown = sb_text_table_utf8(text, MIN(length, 40), table->dialect.encoding);
-      sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "numbers expected, not \"%s\"",
-                    shown);
+      g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
+      sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL,
+                    "numbers expected, not \"%s\"", shown);
     } else if (!good) {
-      sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "has too many numbers");
+      sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL, "has too many numbers");
     }
   }
   if (good && lines.wrong != NULL) {
-    sb_issues_add(issues, table->shown, lines.number, NULL, NULL, "%s", lines.wrong);
-    good = false;
+    good = sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL, "%s", lines.wrong);
   }
   sb_text_table_lines_clear(&lines);
   if (!good) {

@@ -176,28 +176,17 @@ static double read_decimal(const char *text, size_t exponent_at, size_t length, 
   return g_ascii_strtod(moved, NULL);
 }
 
-static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
-static bool fail(GError **error, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  g_autofree char *raw = g_strdup_vprintf(format, arguments);
-  va_end(arguments);
-  g_autofree char *text = sb_printable(raw, strlen(raw));
-  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, text);
-  return false;
-}
-
 // Fails for a text that does not begin with a number; `copy` is stripped.
 static bool fail_number(GError **error, const char *copy, bool plain, const char *shown) {
   const char *word = copy + (*copy == '-' || *copy == '+');
   if (*copy == '\0') {
-    return fail(error, "no value");
+    return sb_app_error_input(error, "no value");
   }
   if (g_ascii_strncasecmp(word, "nan", 3) == 0 || g_ascii_strncasecmp(word, "inf", 3) == 0) {
-    return fail(error, "\"%s\" is not a finite number", copy);
+    return sb_app_error_input(error, "\"%s\" is not a finite number", copy);
   }
-  return fail(error, "\"%s\" is not a number%s%s", copy, plain ? "" : " with a unit such as ",
-              plain ? "" : shown);
+  return sb_app_error_input(error, "\"%s\" is not a number%s%s", copy,
+                            plain ? "" : " with a unit such as ", plain ? "" : shown);
 }
 
 // Finds the scale of a unit in `si`; false with a sentence.
@@ -207,24 +196,26 @@ static bool take_scale(Scale *scale, const char *unit, const char *si, const cha
   g_autofree char *reciprocal = *unit == '/' ? g_strconcat("1", unit, NULL) : NULL;
   *scale = find_scale(reciprocal != NULL ? reciprocal : unit, si);
   if (scale->status == SCALE_NO_DATABASE) {
-    return fail(error, "the units database of udunits-2 is missing");
+    return sb_app_error_input(error, "the units database of udunits-2 is missing");
   }
   if (scale->status == SCALE_OK && scale->zero != 0 && !sb_quantity_is_point(shown)) {
-    return fail(error, "\"%s\" is a point of a scale, this is a difference, expected K", unit);
+    return sb_app_error_input(
+        error, "\"%s\" is a point of a scale, this is a difference, expected K", unit);
   }
   const char *what = scale->status == SCALE_UNKNOWN ? "is not a unit" : "is a unit of another kind";
   if (scale->status != SCALE_OK && strcmp(si, "1") == 0) {
-    return fail(error, "\"%s\" %s: this value has none", unit, what);
+    return sb_app_error_input(error, "\"%s\" %s: this value has none", unit, what);
   }
   return scale->status == SCALE_OK ||
-         fail(error, "\"%s\" %s, expected %s or another unit of that kind", unit, what, shown);
+         sb_app_error_input(error, "\"%s\" %s, expected %s or another unit of that kind", unit,
+                            what, shown);
 }
 
 bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                        GError **error) {
   const bool plain = strcmp(si, "1") == 0;
   if (strlen(text) > SB_NUMBER_LENGTH_MAX) {
-    return fail(error, "\"%.20s...\" is too long for a value", text);
+    return sb_app_error_input(error, "\"%.20s...\" is too long for a value", text);
   }
   g_autofree char *copy = g_strstrip(g_strdup(text));
   size_t exponent_at = 0;
@@ -237,14 +228,14 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     unit++;
   }
   if (*unit == ',' && g_ascii_isdigit(unit[1])) {
-    return fail(error, "\"%s\" has a decimal comma, write a point", copy);
+    return sb_app_error_input(error, "\"%s\" has a decimal comma, write a point", copy);
   }
   if (strpbrk(unit, "#") != NULL) {
-    return fail(error, "\"%s\": a comment must be on a line of its own", copy);
+    return sb_app_error_input(error, "\"%s\": a comment must be on a line of its own", copy);
   }
   if (*unit == '\0' && !plain) {
-    return fail(error, "\"%.*s\" has no unit, write for example \"%.*s %s\"", (int)length, copy,
-                (int)length, copy, shown);
+    return sb_app_error_input(error, "\"%.*s\" has no unit, write for example \"%.*s %s\"",
+                              (int)length, copy, (int)length, copy, shown);
   }
   Scale scale;
   if (!take_scale(&scale, unit, si, shown, error)) {
@@ -263,9 +254,24 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     }
   }
   if (!isfinite(value)) {
-    return fail(error, "\"%s\" is not a finite number", copy);
+    return sb_app_error_input(error, "\"%s\" is not a finite number", copy);
   }
   *out = value;
+  return true;
+}
+
+bool sb_unit_scale(double *out, const char *unit, const char *si, const char *shown,
+                   GError **error) {
+  g_autofree char *one = g_strdup_printf("1 %s", unit);
+  const bool valid = g_utf8_validate(one, -1, NULL);
+  double scale;
+  if (valid && !sb_quantity_parse(&scale, one, si, shown, error)) {
+    return false;
+  }
+  if (!valid || !(scale > 0)) {
+    return sb_app_error_input(error, "\"%s\" is not a unit of %s", unit, si);
+  }
+  *out = scale;
   return true;
 }
 
@@ -376,7 +382,7 @@ static bool fail_name(GError **error, const SbParam *param, const char *name) {
   SbNearest nearest = sb_nearest(name);
   sb_nearest_try_list(&nearest, param->choices);
   g_autofree char *hint = sb_nearest_hint(&nearest);
-  return fail(error, "\"%s\" is not one of the names%s", name, hint);
+  return sb_app_error_input(error, "\"%s\" is not one of the names%s", name, hint);
 }
 
 // Bit mask of a list "hysteresis;profiles".
@@ -431,7 +437,7 @@ bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error)
     return false;
   }
   if (param->kind == SB_PARAM_INT && value != floor(value)) {
-    return fail(error, "\"%.60s\" is not a whole number", text);
+    return sb_app_error_input(error, "\"%.60s\" is not a whole number", text);
   }
   // A limit typed in the unit of people may miss by its rounding.
   const double rounding = 1e-12;

@@ -22,6 +22,11 @@
 SB_CHECKED bool sb_quantity_parse(double *out, const char *text, const char *si, const char *shown,
                                   GError **error);
 
+// Writes the size of one `unit` [si]. Returns false with SB_APP_ERROR_INPUT if it is not a unit of
+// the dimension of `si`, or not above 0.
+SB_CHECKED bool sb_unit_scale(double *out, const char *unit, const char *si, const char *shown,
+                              GError **error);
+
 // Returns whether the display unit makes a quantity a point on a scale (°C), not a difference.
 bool sb_quantity_is_point(const char *shown);
 

@@ -25,17 +25,6 @@ void sb_cad_body_free(SbCadBody *body) {
   g_free(body);
 }
 
-bool sb_cad_unit(double *scale, const char *unit, GError **error) {
-  g_autofree char *one = g_strdup_printf("1 %s", unit);
-  if (!sb_quantity_parse(scale, one, "m", "mm", error)) {
-    return false;
-  }
-  if (!(*scale > 0)) {
-    sb_app_error_input(error, "'%s' is not a unit of length", unit);
-  }
-  return *scale > 0;
-}
-
 char *sb_cad_axis_text(const double *through, const double *direction) {
   char shown[6][SB_NUMBER_SIZE];
   const double length = hypot(hypot(direction[0], direction[1]), direction[2]);
@@ -48,13 +37,6 @@ char *sb_cad_axis_text(const double *through, const double *direction) {
   g_autofree char *point = g_strdup_printf("through %s, %s, %s mm ", shown[0], shown[1], shown[2]);
   return g_strdup_printf("%salong %s, %s, %s", through != NULL ? point : "", shown[3], shown[4],
                          shown[5]);
-}
-
-void sb_cad_note(SbCad *cad, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  g_ptr_array_add(cad->warnings, g_strdup_vprintf(format, arguments));
-  va_end(arguments);
 }
 
 SbCad *sb_cad_new(const char *format) {
@@ -117,7 +99,7 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
     const double uneven = apart / (moment[1][1] + moment[2][2]);
     const double more = body->profile->len > 0 ? body->revolved.volume / body->solid.volume - 1 : 0;
     if (body->measured && (uneven > ROUND || fabs(more) > ROUND)) {
-      sb_cad_note(cad,
+      sb_note_add(cad->warnings,
                   "%s: not a body of revolution: its moments across the axis differ by %.2g %%, "
                   "and its half-section, revolved, has %.2g %% %s volume",
                   body->name, 100 * uneven, 100 * fabs(more), more < 0 ? "less" : "more");
@@ -127,13 +109,11 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
 
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {
   const size_t bytes_max = (size_t)256 << 20;
-  g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *shown = sb_printable(path, strlen(path));
   size_t length;
-  g_autofree char *text = sb_reader_load(&length, path, shown, bytes_max, issues);
+  g_autofree char *text =
+      sb_reader_load_file(&length, path, shown, bytes_max, SB_APP_ERROR_INPUT, error);
   if (text == NULL) {
-    g_autofree char *says = sb_issue_line(issues->pdata[0]);
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s", says);
     return NULL;
   }
   // By what it holds: names lie.

@@ -3,8 +3,11 @@
 
 #include "app/cad/cad.h"
 
-// Processor time that sealbench-cad may use for one file [s].
-enum { SB_CAD_SECONDS_MAX = 60 };
+#include "engine/numeric/arc.h"
+
+// Processor time that sealbench-cad may use for one file [s], after which SIGXCPU ends it; time on
+// the clock without any use of the processor [s], after which it ends itself by SIGALRM.
+enum { SB_CAD_SECONDS_MAX = 60, SB_CAD_STALLED_MAX = 120 };
 
 // A straight piece or an arc from (x0, y0) to (x1, y1) in the plane of the drawing [m]; `bulge` as
 // in SbProfilePoint: positive turns left, 0 is straight.
@@ -23,6 +26,14 @@ bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, d
 
 // Returns the arc from `from` through `middle` to `to`; straight if `middle` is on the line.
 SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
+
+// Returns the arc of a piece with a bulge.
+SbArc sb_cad_circle(const SbCadPiece *piece);
+
+// Returns the place of a point on the line or circle of a piece as a fraction of its length, next
+// to its middle: a point just before the start has a small negative place. Writes the distance of
+// the point from the line or circle.
+double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 
 // Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
 // one point, and pieces on the line y = 0, of no length or drawn twice are ignored. Each closed
@@ -51,12 +62,6 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
 
 // Appends the lands, bores and grooves of the body's profile to body->features.
 void sb_cad_features(SbCadBody *body);
-
-// Adds a sentence to cad->warnings.
-void sb_cad_note(SbCad *cad, const char *format, ...) G_GNUC_PRINTF(2, 3);
-
-// Writes the length of a unit that udunits-2 knows [m]; false with an error if it is none.
-bool sb_cad_unit(double *scale, const char *unit, GError **error);
 
 // Returns the sentence SbCad.axis for an axis along `direction` [3] through the point `through` [3]
 // [m]; NULL: not stated. Freed by g_free().

@@ -1,6 +1,5 @@
 // Curves as straight pieces and arcs. Also compiled into sealbench-cad.
 #include "app/cad/cad_private.h"
-#include "engine/numeric/arc.h"
 
 #include <math.h>
 
@@ -26,21 +25,23 @@ SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double
   return (SbCadPiece){from[0], from[1], to[0], to[1], cross > 0 ? -bulge : bulge};
 }
 
-// Distance of a point from a piece, as if that went on.
-static double off(const SbCadPiece *piece, const double at[2]) {
-  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0;
-  const double chord = hypot(dx, dy);
-  if (chord == 0) {
-    return hypot(at[0] - piece->x0, at[1] - piece->y0);
-  }
-  const double along = ((at[0] - piece->x0) * dx + (at[1] - piece->y0) * dy) / chord;
-  const double left = ((at[1] - piece->y0) * dx - (at[0] - piece->x0) * dy) / chord;
+SbArc sb_cad_circle(const SbCadPiece *piece) {
+  const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
+  return sb_arc_of(from, to, piece->bulge);
+}
+
+double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off) {
+  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, chord = hypot(dx, dy);
   if (piece->bulge == 0) {
-    return fabs(left);
+    const double u = x - piece->x0, v = y - piece->y0;
+    *off = chord > 0 ? fabs(v * dx - u * dy) / chord : hypot(u, v);
+    return (u * dx + v * dy) / (chord * chord);
   }
-  const double from[2] = {0, 0}, to[2] = {chord, 0};
-  const SbArc arc = sb_arc_of(from, to, piece->bulge);
-  return fabs(hypot(along - arc.centre[0], left - arc.centre[1]) - arc.radius);
+  const SbArc arc = sb_cad_circle(piece);
+  const double u = x - arc.centre[0], v = y - arc.centre[1], once = 2 * M_PI / fabs(arc.sweep);
+  const double part = fmod((atan2(v, u) - arc.start) / arc.sweep, once);
+  *off = fabs(hypot(u, v) - arc.radius);
+  return part < 0.5 - once / 2 ? part + once : part > 0.5 + once / 2 ? part - once : part;
 }
 
 static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,
@@ -59,7 +60,9 @@ static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, 
   const SbCadPiece piece = sb_cad_arc(p[0], p[POINTS / 2], p[POINTS - 1]);
   bool good = fabs(piece.bulge) <= 1;
   for (int i = 1; good && i < POINTS - 1; i++) {
-    good = off(&piece, p[i]) <= BETWEEN * tolerance;
+    double off;
+    (void)sb_cad_place(&piece, p[i][0], p[i][1], &off);
+    good = off <= BETWEEN * tolerance;
   }
   if (good) {
     g_array_append_val(pieces, piece);

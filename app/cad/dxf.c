@@ -8,8 +8,8 @@
 // coordinates, whose x is reversed if the extrusion direction is (0, 0, -1).
 #include "app/base/error.h"
 #include "app/base/number.h"
+#include "app/base/unit.h"
 #include "app/cad/cad_private.h"
-#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
@@ -31,10 +31,16 @@ enum {
 // unit at worst. Beyond FARTHEST an entity is left out [m].
 static const double GAP = 1e-6, FARTHEST = 1e6;
 
+// Where a pair begins in the text.
 typedef struct {
-  const char *at, *end; // remainder of the text
-  char separator;       // of lines
+  const char *at;
   int line;
+} Item;
+
+typedef struct {
+  Item next;       // remainder of the text
+  const char *end; // of the text
+  char separator;  // of lines
   int code;
   char value[512]; // trimmed, cut
 } Reader;
@@ -45,17 +51,11 @@ static const int list_code[LISTS] = {10, 20, 42, 40, 41};
 
 // An entity: its values by group code. A POLYLINE has the points of its VERTEX entities.
 typedef struct {
-  char type[32], layer[256], line_type[64], name[256];
+  char type[32], layer[256], line_type[256], name[256];
   double number[256];
   double low, high;    // of z
   GArray *list[LISTS]; // of double
 } Entity;
-
-// Where an entity begins in the text.
-typedef struct {
-  const char *at;
-  int line;
-} Item;
 
 // A block, or model space.
 typedef struct {
@@ -73,78 +73,59 @@ typedef struct {
   Block *model;         // the section ENTITIES
   GHashTable *blocks;   // name in lower case -> Block
   GHashTable *hidden;   // name of a layer in lower case -> why it is not seen
-  GHashTable *layers;   // name in lower case -> GArray of SbCadPiece [m]
-  GPtrArray *names;     // of these layers, in order of appearance
+  GPtrArray *names;     // of the layers with pieces, in order of appearance
+  GPtrArray *layers;    // of GArray of SbCadPiece [m], in the order of `names`
   GHashTable *left_out; // type and reason -> count
   GArray *centre;       // of SbCadPiece [m]: centre lines
   guint pieces, items, placed;
-  const char *unit; // static, or of the caller; NULL: not known
-  double scale;     // its length [m]
+  char *unit;   // owned; NULL: not known
+  double scale; // its length [m]
 } Drawing;
 
 // ---- Pairs ----
 
-static bool read_line(Reader *reader, const char **text, size_t *length) {
-  if (reader->at >= reader->end) {
+// Reads a line to reader->value; false at the end.
+static bool read_line(Reader *reader) {
+  const char *at = reader->next.at;
+  if (at >= reader->end) {
     return false;
   }
-  const char *stop = memchr(reader->at, reader->separator, (size_t)(reader->end - reader->at));
-  const char *next = stop != NULL ? stop + 1 : reader->end;
+  const char *stop = memchr(at, reader->separator, (size_t)(reader->end - at));
+  reader->next.at = stop != NULL ? stop + 1 : reader->end;
+  reader->next.line++;
   stop = stop != NULL ? stop : reader->end;
-  *text = reader->at;
-  while (stop > *text && (stop[-1] == '\r' || stop[-1] == ' ' || stop[-1] == '\t')) {
+  while (stop > at && strchr("\r \t", stop[-1]) != NULL && stop[-1] != '\0') {
     stop--;
   }
-  while (*text < stop && (**text == ' ' || **text == '\t')) {
-    (*text)++;
+  while (at < stop && (*at == ' ' || *at == '\t')) {
+    at++;
   }
-  *length = (size_t)(stop - *text);
-  reader->at = next;
-  reader->line++;
+  const size_t length = MIN((size_t)(stop - at), sizeof reader->value - 1);
+  memcpy(reader->value, at, length);
+  reader->value[length] = '\0';
   return true;
-}
-
-// A part of the file, which no NUL ends, as a string, cut to fit.
-static void copy(char *to, size_t size, const char *text, size_t length) {
-  length = MIN(length, size - 1);
-  memcpy(to, text, length);
-  to[length] = '\0';
 }
 
 // The next pair. False at the end; a code that is no number sets an error.
 static bool read_pair(Reader *reader, GError **error) {
-  const char *text;
-  size_t length;
-  if (!read_line(reader, &text, &length)) {
+  double code;
+  if (!read_line(reader)) {
     return false;
   }
-  char digits[16];
-  double code;
-  copy(digits, sizeof digits, text, length);
-  if (length >= sizeof digits || !sb_number_parse(&code, digits) || code != floor(code) ||
-      fabs(code) > 9999) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "line %d is not a group code of a DXF",
-                reader->line);
-    return false;
+  if (!sb_number_parse(&code, reader->value) || code != floor(code) || fabs(code) > 9999) {
+    return sb_app_error_input(error, "line %d is not a group code of a DXF", reader->next.line);
   }
   reader->code = (int)code;
-  if (!read_line(reader, &text, &length)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "the file ends after line %d",
-                reader->line);
-    return false;
-  }
-  copy(reader->value, sizeof reader->value, text, length);
-  return true;
+  return read_line(reader) ||
+         sb_app_error_input(error, "the file ends after line %d", reader->next.line);
 }
 
 // Codes 60 to 79 are 16-bit integers.
 static bool value_number(const Reader *reader, double *out, GError **error) {
   const double most = reader->code >= 60 && reader->code < 80 ? 32768 : 1e12;
-  if (sb_number_parse(out, reader->value) && fabs(*out) < most) {
-    return true;
-  }
-  sb_app_error_input(error, "line %d: '%s' is not a number here", reader->line, reader->value);
-  return false;
+  return (sb_number_parse(out, reader->value) && fabs(*out) < most) ||
+         sb_app_error_input(error, "line %d: '%s' is not a number here", reader->next.line,
+                            reader->value);
 }
 
 // ---- Entities ----
@@ -156,19 +137,12 @@ static void entity_clear(Entity *entity) {
 }
 
 static void entity_begin(Entity *entity, const char *type) {
-  for (int i = 0; i < LISTS; i++) {
-    if (entity->list[i] == NULL) {
-      entity->list[i] = g_array_new(FALSE, FALSE, sizeof(double));
-    }
-    g_array_set_size(entity->list[i], 0);
-  }
-  memset(entity->number, 0, sizeof entity->number);
-  entity->number[230] = 1;
-  entity->low = INFINITY;
-  entity->high = -INFINITY;
+  entity_clear(entity);
+  *entity = (Entity){.layer = "0", .number[230] = 1, .low = INFINITY, .high = -INFINITY};
   g_strlcpy(entity->type, type, sizeof entity->type);
-  g_strlcpy(entity->layer, "0", sizeof entity->layer);
-  entity->line_type[0] = entity->name[0] = '\0';
+  for (int i = 0; i < LISTS; i++) {
+    entity->list[i] = g_array_new(FALSE, FALSE, sizeof(double));
+  }
 }
 
 static bool is_type(const Entity *entity, const char *type) {
@@ -178,16 +152,14 @@ static bool is_type(const Entity *entity, const char *type) {
 // Takes a pair of an entity.
 static bool entity_take(Entity *entity, const Reader *reader, GError **error) {
   const int code = reader->code;
-  char *text = code == 8 ? entity->layer : code == 2 ? entity->name : NULL;
+  char *text = code == 8   ? entity->layer
+               : code == 2 ? entity->name
+               : code == 6 ? entity->line_type
+                           : NULL;
+  double value;
   if (text != NULL) {
     g_strlcpy(text, reader->value, sizeof entity->layer);
-    return true;
   }
-  if (code == 6) {
-    g_strlcpy(entity->line_type, reader->value, sizeof entity->line_type);
-    return true;
-  }
-  double value;
   if (!((code >= 10 && code < 80) || code == 210 || code == 220 || code == 230)) {
     return true;
   }
@@ -209,8 +181,8 @@ static bool entity_take(Entity *entity, const Reader *reader, GError **error) {
     if (code == list_code[i] && list->len < PIECES_MAX) {
       g_array_append_val(list, value);
     } else if (code == list_code[i]) {
-      sb_app_error_input(error, "line %d: more than %d points", reader->line, PIECES_MAX);
-      return false;
+      return sb_app_error_input(error, "line %d: more than %d points", reader->next.line,
+                                PIECES_MAX);
     }
   }
   return true;
@@ -228,7 +200,7 @@ static bool read_entity(Entity *entity, Reader *reader, GError **error) {
   guint before = 0;
   bool in_vertex = false, vertex = true;
   while (vertex) {
-    const Item here = {reader->at, reader->line};
+    const Item here = reader->next;
     const bool more = read_pair(reader, error);
     if (*error != NULL || (more && reader->code != 0 && !entity_take(entity, reader, error))) {
       return false;
@@ -246,8 +218,7 @@ static bool read_entity(Entity *entity, Reader *reader, GError **error) {
     before = entity->list[X]->len;
     in_vertex = vertex;
     if (!vertex) {
-      reader->at = here.at;
-      reader->line = here.line;
+      reader->next = here;
     }
   }
   return true;
@@ -272,57 +243,49 @@ static Affine after(const Affine *out, const Affine *in) {
       out->d * in->b + out->e * in->e,          out->d * in->c + out->e * in->f + out->f};
 }
 
+// A part of an ellipse, from the angle `start` over `sweep`.
 typedef struct {
   const Affine *way;
-  SbArc arc;
-} PlacedArc;
-
-static void arc_at(const void *curve, double t, double xy[2]) {
-  const PlacedArc *placed = curve;
-  double place[2];
-  sb_arc_place(&placed->arc, t, place);
-  map(placed->way, place[0], place[1], xy);
-}
-
-// Adds a straight line or an arc; an arc is one if the map preserves circles, else is followed.
-static bool add_bulge(GArray *out, const Affine *way, const SbCadPiece *piece) {
-  double from[2], to[2];
-  map(way, piece->x0, piece->y0, from);
-  map(way, piece->x1, piece->y1, to);
-  const double u = hypot(way->a, way->d), v = hypot(way->b, way->e);
-  const bool even =
-      fabs(u - v) <= 1e-9 * (u + v) && fabs(way->a * way->b + way->d * way->e) <= 1e-9 * u * v;
-  if (piece->bulge == 0 || even) {
-    const bool turned = way->a * way->e - way->b * way->d < 0;
-    const SbCadPiece placed = {from[0], from[1], to[0], to[1],
-                               turned ? -piece->bulge : piece->bulge};
-    g_array_append_val(out, placed);
-    return true;
-  }
-  const double begin[2] = {piece->x0, piece->y0}, end[2] = {piece->x1, piece->y1};
-  const PlacedArc arc = {way, sb_arc_of(begin, end, piece->bulge)};
-  return sb_cad_curve(out, arc_at, &arc, 2, SB_CAD_TOLERANCE);
-}
-
-typedef struct {
-  const Affine *way;
-  double centre[2], major[2], minor[2], start, end;
+  double centre[2], major[2], minor[2], start, sweep;
 } Ellipse;
 
 static void ellipse_at(const void *curve, double t, double xy[2]) {
   const Ellipse *e = curve;
-  const double angle = e->start + t * (e->end - e->start), c = cos(angle), s = sin(angle);
+  const double angle = e->start + t * e->sweep, c = cos(angle), s = sin(angle);
   map(e->way, e->centre[0] + c * e->major[0] + s * e->minor[0],
       e->centre[1] + c * e->major[1] + s * e->minor[1], xy);
+}
+
+// Adds a straight line or an arc; an arc is one if the map preserves circles, else is followed.
+static bool add_bulge(GArray *out, const Affine *way, const SbCadPiece *piece) {
+  const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
+  const double u = hypot(way->a, way->d), v = hypot(way->b, way->e);
+  const bool even =
+      fabs(u - v) <= 1e-9 * (u + v) && fabs(way->a * way->b + way->d * way->e) <= 1e-9 * u * v;
+  if (piece->bulge != 0 && !even) {
+    const SbArc arc = sb_cad_circle(piece);
+    const Ellipse circle = {
+        way,      {arc.centre[0], arc.centre[1]}, {arc.radius, 0}, {0, arc.radius}, arc.start,
+        arc.sweep};
+    return sb_cad_curve(out, ellipse_at, &circle, 2, SB_CAD_TOLERANCE);
+  }
+  double begin[2], end[2];
+  map(way, from[0], from[1], begin);
+  map(way, to[0], to[1], end);
+  const bool turned = way->a * way->e - way->b * way->d < 0;
+  const SbCadPiece placed = {begin[0], begin[1], end[0], end[1],
+                             turned ? -piece->bulge : piece->bulge};
+  g_array_append_val(out, placed);
+  return true;
 }
 
 // The minor axis is the extrusion direction times the major axis.
 static bool add_ellipse(GArray *out, const Affine *way, const Entity *entity) {
   const double *n = entity->number, up = n[230] < 0 ? -n[40] : n[40];
   const double end = n[42] > n[41] ? n[42] : n[42] + 2 * M_PI;
-  const Ellipse ellipse = {way, {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]}, n[41],
-                           end};
-  return n[40] > 0 && end - n[41] <= 2 * M_PI + 1e-6 &&
+  const Ellipse ellipse = {way,   {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]},
+                           n[41], end - n[41]};
+  return n[40] > 0 && ellipse.sweep <= 2 * M_PI + 1e-6 &&
          sb_cad_curve(out, ellipse_at, &ellipse, 4, SB_CAD_TOLERANCE);
 }
 
@@ -432,49 +395,51 @@ static bool add_entity(GArray *out, const Affine *way, const Entity *entity) {
 // ---- Placing ----
 
 static bool is_centre_line(const Entity *entity) {
-  g_autofree char *layer = g_ascii_strdown(entity->layer, -1);
-  g_autofree char *type = g_ascii_strdown(entity->line_type, -1);
-  return is_type(entity, "LINE") &&
-         (g_str_has_prefix(type, "center") || g_str_has_prefix(layer, "axis") ||
-          g_str_has_prefix(layer, "cent"));
+  return is_type(entity, "LINE") && (g_ascii_strncasecmp(entity->line_type, "center", 6) == 0 ||
+                                     g_ascii_strncasecmp(entity->layer, "axis", 4) == 0 ||
+                                     g_ascii_strncasecmp(entity->layer, "cent", 4) == 0);
+}
+
+// Returns the value of a name in any case.
+static gpointer find(GHashTable *table, const char *name) {
+  g_autofree char *key = g_ascii_strdown(name, -1);
+  return g_hash_table_lookup(table, key);
 }
 
 // Counts an entity that was not read, with the reason ("" or " in paper space").
 static void count_left_out(Drawing *drawing, const char *type, const char *reason) {
-  char *key = g_strconcat(type, reason, NULL);
-  guint count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, key));
-  if (count == 0 && g_hash_table_size(drawing->left_out) >= LEFT_OUT_MAX) {
-    g_free(key);
-    key = g_strdup("other entities");
-    count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, key));
-  }
-  g_hash_table_insert(drawing->left_out, key, GUINT_TO_POINTER(count + 1));
+  g_autofree char *key = g_strconcat(type, reason, NULL);
+  const bool more = !g_hash_table_contains(drawing->left_out, key) &&
+                    g_hash_table_size(drawing->left_out) >= LEFT_OUT_MAX;
+  char *counted = g_strdup(more ? "other entities" : key);
+  const guint count = GPOINTER_TO_UINT(g_hash_table_lookup(drawing->left_out, counted));
+  g_hash_table_insert(drawing->left_out, counted, GUINT_TO_POINTER(count + 1));
 }
 
 static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GArray *pieces,
                        GError **error) {
-  drawing->pieces += pieces->len;
-  g_autofree char *key = g_ascii_strdown(name, -1);
-  GArray *layer = centre ? drawing->centre : g_hash_table_lookup(drawing->layers, key);
-  if (layer == NULL) {
-    layer = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-    g_hash_table_insert(drawing->layers, g_steal_pointer(&key), layer);
+  guint layer = 0;
+  while (layer < drawing->names->len &&
+         g_ascii_strcasecmp(drawing->names->pdata[layer], name) != 0) {
+    layer++;
+  }
+  if (!centre && layer == drawing->names->len) {
     g_ptr_array_add(drawing->names, g_strdup(name));
+    g_ptr_array_add(drawing->layers, g_array_new(FALSE, FALSE, sizeof(SbCadPiece)));
   }
-  g_array_append_vals(layer, pieces->data, pieces->len);
-  if (drawing->pieces > PIECES_MAX || drawing->names->len > LAYERS_MAX) {
-    sb_app_error_input(error, "more than %d pieces or %d layers: export the seal's parts alone",
-                       PIECES_MAX, LAYERS_MAX);
-    return false;
-  }
-  return true;
+  g_array_append_vals(centre ? drawing->centre : drawing->layers->pdata[layer], pieces->data,
+                      pieces->len);
+  drawing->pieces += pieces->len;
+  return (drawing->pieces <= PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
+         sb_app_error_input(error,
+                            "more than %d pieces or %d layers: export the seal's parts alone",
+                            PIECES_MAX, LAYERS_MAX);
 }
 
 // Returns why an entity on `layer` is not seen or is not in the plane; NULL: it is drawn.
 static char *why_not(const Drawing *drawing, const Entity *entity, const char *layer) {
   const double *n = entity->number;
-  g_autofree char *key = g_ascii_strdown(layer, -1);
-  const char *hidden = g_hash_table_lookup(drawing->hidden, key);
+  const char *hidden = find(drawing->hidden, layer);
   const bool insert = is_type(entity, "INSERT");
   if (n[67] == 1 || n[60] == 1) {
     return g_strdup(n[67] == 1 ? " in paper space" : " that is invisible");
@@ -486,7 +451,9 @@ static char *why_not(const Drawing *drawing, const Entity *entity, const char *l
   const double rise = is_type(entity, "ELLIPSE") ? fabs(n[31]) : entity->high - entity->low;
   const bool tilted = hypot(n[210], n[220]) > 1e-6 * fabs(n[230]);
   const bool turns = !is_type(entity, "LINE") && !is_type(entity, "SPLINE");
+  const bool fit = is_type(entity, "SPLINE") && entity->list[X]->len == 0;
   return (tilted && turns) || rise * drawing->scale > GAP ? g_strdup(" out of the drawing's plane")
+         : fit                                            ? g_strdup(" with fit points only")
                                                           : NULL;
 }
 
@@ -499,17 +466,16 @@ static bool place_insert(Drawing *drawing, const Entity *entity, const Affine *w
   const double *n = entity->number, turn = n[50] * M_PI / 180, c = cos(turn), s = sin(turn);
   const double sx = entity->list[WEIGHT]->len > 0 ? n[41] : 1;
   const double sy = entity->list[BULGE]->len > 0 ? n[42] : 1;
-  g_autofree char *key = g_ascii_strdown(entity->name, -1);
-  const Block *block = g_hash_table_lookup(drawing->blocks, key);
+  const Block *block = find(drawing->blocks, entity->name);
   if (block == NULL || sx == 0 || sy == 0) {
     count_left_out(drawing, "INSERT", "");
     return true;
   }
-  bool good = depth < DEPTH_MAX;
-  if (!good) {
-    sb_app_error_input(error, "its blocks are nested more than %d deep, or contain themselves",
-                       DEPTH_MAX);
+  if (depth >= DEPTH_MAX) {
+    return sb_app_error_input(
+        error, "its blocks are nested more than %d deep, or contain themselves", DEPTH_MAX);
   }
+  bool good = true;
   const int columns = MAX((int)n[70], 1), count = MAX((int)n[71], 1) * columns;
   for (int i = 0; good && i < count; i++) {
     const double x = n[44] * (i % columns) - sx * block->base[0];
@@ -538,11 +504,7 @@ static bool place_entity(Drawing *drawing, const Entity *entity, const Affine *o
   }
   g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   if (reason != NULL || !add_entity(pieces, &way, entity)) {
-    const bool fit = is_type(entity, "SPLINE") && entity->list[X]->len == 0;
-    count_left_out(drawing, entity->type,
-                   reason != NULL ? reason
-                   : fit          ? " with fit points only"
-                                  : "");
+    count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
   }
   return add_pieces(drawing, on, is_centre_line(entity), pieces, error);
@@ -555,17 +517,14 @@ static bool place_block(Drawing *drawing, const Block *block, const Affine *way,
   bool good = true;
   drawing->placed++; // an empty block as well
   for (guint i = 0; good && i < block->items->len; i++) {
-    const Item *item = &g_array_index(block->items, Item, i);
     Reader reader = drawing->text;
-    reader.at = item->at;
-    reader.line = item->line;
+    reader.next = g_array_index(block->items, Item, i);
     good = read_entity(&entity, &reader, error);
     drawing->placed += depth > 0;
     if (good && drawing->placed > PLACED_MAX) {
-      sb_app_error_input(error,
-                         "its blocks place more than %d entities: export the seal's parts alone",
-                         PLACED_MAX);
-      good = false;
+      good = sb_app_error_input(
+          error, "its blocks place more than %d entities: export the seal's parts alone",
+          PLACED_MAX);
     }
     good = good && place_entity(drawing, &entity, way, layer, depth, error);
   }
@@ -589,31 +548,9 @@ static Block *block_new(void) {
 
 // Names of $INSUNITS for udunits-2, from 1. The inch of the US survey (22), which udunits-2 does
 // not know, is longer than the inch by 2e-6.
-static const char *const units[] = {NULL,
-                                    "inch",
-                                    "foot",
-                                    "mile",
-                                    "mm",
-                                    "cm",
-                                    "m",
-                                    "km",
-                                    "uin",
-                                    "mil",
-                                    "yard",
-                                    "angstrom",
-                                    "nm",
-                                    "um",
-                                    "dm",
-                                    "dam",
-                                    "hm",
-                                    "Gm",
-                                    "astronomical_unit",
-                                    "light_year",
-                                    "parsec",
-                                    "US_survey_foot",
-                                    "inch",
-                                    "US_survey_yard",
-                                    "US_survey_mile"};
+#define UNITS                                                                                      \
+  "inch|foot|mile|mm|cm|m|km|uin|mil|yard|angstrom|nm|um|dm|dam|hm|Gm|astronomical_unit|"          \
+  "light_year|parsec|US_survey_foot|inch|US_survey_yard|US_survey_mile"
 
 // Reads a record of a section at `item`: a layer, the begin or end of a block, an entity.
 static bool read_record(Drawing *drawing, const char *section, const char *type, const Item *item,
@@ -624,8 +561,7 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
   bool good = true;
   if (layer || (blocks && strcmp(type, "BLOCK") == 0)) {
     Reader reader = drawing->text;
-    reader.at = item->at;
-    reader.line = item->line;
+    reader.next = *item;
     good = read_entity(&entity, &reader, error);
     char *key = g_ascii_strdown(entity.name, -1);
     if (layer) {
@@ -644,11 +580,9 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
     g_array_append_vals((*open)->items, item, 1);
   }
   entity_clear(&entity);
-  if (good && drawing->items++ > ENTITIES_MAX) {
-    sb_app_error_input(error, "more than %d entities: export the seal's parts alone", ENTITIES_MAX);
-    good = false;
-  }
-  return good;
+  return good && (drawing->items++ <= ENTITIES_MAX ||
+                  sb_app_error_input(error, "more than %d entities: export the seal's parts alone",
+                                     ENTITIES_MAX));
 }
 
 // Finds the blocks, layers and entities, and the unit unless the caller chose one.
@@ -658,7 +592,7 @@ static bool read_file(Drawing *drawing, GError **error) {
   Block *open = NULL; // that entities are added to
   bool named = false, sections = false, good = true;
   while (good) {
-    const Item item = {reader.at, reader.line};
+    const Item item = reader.next;
     if (!read_pair(&reader, error)) {
       break;
     }
@@ -681,22 +615,38 @@ static bool read_file(Drawing *drawing, GError **error) {
     } else if (strcmp(variable, "$INSUNITS") == 0 && reader.code == 70) {
       double number = 0;
       good = value_number(&reader, &number, error);
-      if (good && drawing->unit == NULL && number >= 1 && number < G_N_ELEMENTS(units)) {
-        drawing->unit = units[(int)number];
+      g_auto(GStrv) units = g_strsplit(UNITS, "|", -1);
+      if (good && drawing->unit == NULL && number >= 1 && number <= g_strv_length(units)) {
+        drawing->unit = g_strdup(units[(int)number - 1]);
       }
       variable[0] = '\0';
     }
   }
-  if (*error == NULL && !sections) {
-    sb_app_error_input(error, "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section");
-  }
-  return *error == NULL;
+  return *error == NULL &&
+         (sections ||
+          sb_app_error_input(error,
+                             "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"));
 }
 
 // The line that bodies are revolved about: a point [m] and a direction.
 typedef struct {
   double x, y, c, s;
 } Axis;
+
+// Returns a y that all pieces are above [m]. No arc goes further from its chord than that is long
+// times the bulge.
+static double below(const Drawing *drawing) {
+  const double away = 1e-3;
+  double low = INFINITY;
+  for (guint k = 0; k < drawing->layers->len; k++) {
+    const GArray *pieces = drawing->layers->pdata[k];
+    for (guint i = 0; i < pieces->len; i++) {
+      const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+      low = fmin(low, fmin(p->y0, p->y1) - fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0));
+    }
+  }
+  return low - away;
+}
 
 static Axis find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
   double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
@@ -708,17 +658,15 @@ static Axis find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *ch
       longest = length;
       const double c = dx / length, s = dy / length;
       const double sign = c < -1e-9 || (fabs(c) <= 1e-9 && s < 0) ? -1 : 1;
-      direction[0] = sign * c;
-      direction[1] = sign * s;
-      through[0] = line->x0;
-      through[1] = line->y0;
+      memcpy(direction, (double[]){sign * c, sign * s, 0}, sizeof direction);
+      memcpy(through, (double[]){line->x0, line->y0, 0}, sizeof through);
     }
   }
-  if (!choices->section && choices->through != NULL) {
-    memcpy(through, choices->through, sizeof through);
-  }
-  if (!choices->section && choices->axis != NULL) {
-    memcpy(direction, choices->axis, sizeof direction);
+  if (choices->section) {
+    through[1] = below(drawing);
+  } else {
+    memcpy(through, choices->through != NULL ? choices->through : through, sizeof through);
+    memcpy(direction, choices->axis != NULL ? choices->axis : direction, sizeof direction);
   }
   // The point of the line that is nearest to the drawing's origin is x = 0.
   const double length = hypot(direction[0], direction[1]);
@@ -743,52 +691,19 @@ static void left_out(SbCad *cad, const Drawing *drawing) {
     g_autofree char *shown = sb_printable(type, strlen(type));
     g_ptr_array_add(texts, g_strdup_printf("%u %s", GPOINTER_TO_UINT(count), shown));
   }
-  g_ptr_array_sort(texts, by_text);
-  g_autoptr(GString) all = g_string_new("left out: ");
-  for (guint i = 0; i < texts->len; i++) {
-    g_string_append_printf(all, "%s%s", i > 0 ? ", " : "", (const char *)texts->pdata[i]);
-  }
   if (texts->len > 0) {
-    sb_cad_note(cad, "%s", all->str);
-  }
-}
-
-// The pieces of a layer of drawing->names.
-static GArray *layer_of(const Drawing *drawing, guint k) {
-  g_autofree char *key = g_ascii_strdown(drawing->names->pdata[k], -1);
-  return g_hash_table_lookup(drawing->layers, key);
-}
-
-// Moves a drawing's pieces to one side of the line y = 0, and away from it.
-static void lift(const Drawing *drawing) {
-  const double away = 1e-3; // m
-  double low = INFINITY;
-  for (int pass = 0; pass < 2; pass++) {
-    for (guint k = 0; k < drawing->names->len; k++) {
-      GArray *pieces = layer_of(drawing, k);
-      for (guint i = 0; i < pieces->len; i++) {
-        SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
-        if (pass == 0) {
-          // No arc goes further from its chord than that is long times the bulge.
-          const double bow = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
-          low = fmin(low, fmin(p->y0, p->y1) - bow);
-        } else {
-          p->y0 += away - low;
-          p->y1 += away - low;
-        }
-      }
-    }
+    g_ptr_array_sort(texts, by_text);
+    g_ptr_array_add(texts, NULL);
+    g_autofree char *all = g_strjoinv(", ", (char **)texts->pdata);
+    sb_note_add(cad->warnings, "left out: %s", all);
   }
 }
 
 static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
-  if (choices->section) {
-    lift(drawing);
-  }
   const Axis axis = find_axis(cad, drawing, choices);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
-    GArray *pieces = layer_of(drawing, k);
+    GArray *pieces = drawing->layers->pdata[k];
     for (guint i = 0; i < pieces->len; i++) {
       SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
       const double x0 = p->x0 - axis.x, y0 = p->y0 - axis.y;
@@ -813,7 +728,7 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
                        choices->section ? "" : ": specify it with --unit");
     return NULL;
   }
-  if (!sb_cad_unit(&drawing->scale, drawing->unit, error)) {
+  if (!sb_unit_scale(&drawing->scale, drawing->unit, "m", "mm", error)) {
     return NULL;
   }
   const Affine way = {drawing->scale, 0, 0, 0, drawing->scale, 0};
@@ -832,23 +747,27 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
   return cad;
 }
 
+static GHashTable *names_to(GDestroyNotify value_free) {
+  return g_hash_table_new_full(g_str_hash, g_str_equal, g_free, value_free);
+}
+
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error) {
   static const char mark[] = "\xEF\xBB\xBF"; // of UTF-8
   const gsize skipped = length >= 3 && memcmp(text, mark, 3) == 0 ? 3 : 0;
   Drawing drawing = {
-      .text = {.at = text + skipped, .end = text + length},
+      .text = {.next.at = text + skipped,
+               .end = text + length,
+               .separator = memchr(text, '\n', length) != NULL ? '\n' : '\r'},
       .model = block_new(),
-      .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
-      .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
-      .layers =
-          g_hash_table_new_full(g_str_hash, g_str_equal, g_free, (GDestroyNotify)g_array_unref),
+      .blocks = names_to(block_free),
+      .hidden = names_to(NULL),
+      .left_out = names_to(NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
-      .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+      .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
-      .unit = choices->unit,
+      .unit = g_strdup(choices->unit),
   };
-  drawing.text.separator = memchr(text, '\n', length) != NULL ? '\n' : '\r';
   GError *problem = NULL;
   SbCad *cad = NULL;
   if (length >= 22 && memcmp(text, "AutoCAD Binary DXF", 18) == 0) {
@@ -859,15 +778,16 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
     cad = of_drawing(&drawing, choices, &problem);
   }
   if (problem != NULL) {
-    sb_app_error_input(error, "%s: %s", name, problem->message);
-    g_error_free(problem);
+    sb_app_error_prefix(&problem, name);
+    g_propagate_error(error, problem);
   }
   block_free(drawing.model);
   g_hash_table_unref(drawing.blocks);
   g_hash_table_unref(drawing.hidden);
-  g_hash_table_unref(drawing.layers);
-  g_ptr_array_unref(drawing.names);
   g_hash_table_unref(drawing.left_out);
+  g_ptr_array_unref(drawing.names);
+  g_ptr_array_unref(drawing.layers);
   g_array_unref(drawing.centre);
+  g_free(drawing.unit);
   return cad;
 }

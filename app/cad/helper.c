@@ -22,6 +22,8 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/resource.h>
+#include <sys/time.h>
+#include <time.h>
 #include <unistd.h>
 
 // The kernel works in mm, for which its tolerances are made.
@@ -39,6 +41,19 @@ static void take_output(void) {
   }
 }
 
+// Each second: ends the program if it has not used the processor for too long.
+static void on_alarm(int signal_number) {
+  static clock_t before;
+  static int stalled;
+  const clock_t now = clock();
+  stalled = now > before ? 0 : stalled + 1;
+  before = now;
+  if (stalled >= SB_CAD_STALLED_MAX) {
+    signal(SIGALRM, SIG_DFL);
+    raise(SIGALRM);
+  }
+}
+
 // Ends the program where the kernel failed.
 static void check(int failed, const char *what) {
   if (failed != 0) {
@@ -53,6 +68,14 @@ typedef struct {
   double area;                   // of the faces about it
   bool ball;                     // any direction: the point is a centre
 } Axis;
+
+static void print_numbers(const char *word, const double *number, int count) {
+  fprintf(out, "%s", word);
+  for (int i = 0; i < count; i++) {
+    fprintf(out, " %.17g", number[i]);
+  }
+  fprintf(out, "\n");
+}
 
 static double dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -337,7 +360,7 @@ static bool print_edges(int face) {
   good = good && written <= PIECES_MAX;
   for (guint i = 0; good && i < pieces->len; i++) {
     const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
-    fprintf(out, "piece %.17g %.17g %.17g %.17g %.17g\n", p->x0, p->y0, p->x1, p->y1, p->bulge);
+    print_numbers("piece", (double[]){p->x0, p->y0, p->x1, p->y1, p->bulge}, 5);
   }
   gmshFree(edges);
   return good;
@@ -394,30 +417,29 @@ static void print_body(int body, int number) {
   const char *last = slash != NULL ? slash + 1 : whole;
   // What the kernel writes where it was given no name.
   last = strncmp(last, "Open CASCADE STEP translator", 28) == 0 ? "" : last;
-  char own[120];
-  if (*last != '\0') {
-    snprintf(own, sizeof own, "%s", last);
-  } else {
-    snprintf(own, sizeof own, "body %d", number);
-  }
+  g_autofree char *own = *last != '\0' ? g_strdup(last) : g_strdup_printf("body %d", number);
   for (char *at = own; *at != '\0'; at++) {
     *at = (unsigned char)*at < ' ' ? ' ' : *at;
   }
   fprintf(out, "body %s\n", own);
   gmshFree(name);
-  double volume = 0, centre[3] = {0}, *moment = NULL;
+  // Volume, centre, and the moments of a matrix of three rows.
+  double solid[10] = {0}, *moment = NULL;
   size_t count = 0;
-  gmshModelOccGetMass(3, body, &volume, &ierr);
-  check(ierr, "the kernel cannot measure a body");
-  gmshModelOccGetCenterOfMass(3, body, &centre[0], &centre[1], &centre[2], &ierr);
-  check(ierr, "the kernel cannot measure a body");
-  gmshModelOccGetMatrixOfInertia(3, body, &moment, &count, &ierr);
-  check(ierr != 0 || count != 9, "the kernel cannot measure a body");
+  int failed[3];
+  gmshModelOccGetMass(3, body, &solid[0], &failed[0]);
+  gmshModelOccGetCenterOfMass(3, body, &solid[1], &solid[2], &solid[3], &failed[1]);
+  gmshModelOccGetMatrixOfInertia(3, body, &moment, &count, &failed[2]);
+  check(failed[0] != 0 || failed[1] != 0 || failed[2] != 0 || count != 9,
+        "the kernel cannot measure a body");
   const double to_volume = SCALE * SCALE * SCALE, to_moment = to_volume * SCALE * SCALE;
-  fprintf(out, "solid %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g %.17g\n",
-          to_volume * volume, SCALE * centre[0], SCALE * centre[1], SCALE * centre[2],
-          to_moment * moment[0], to_moment * moment[1], to_moment * moment[2],
-          to_moment * moment[4], to_moment * moment[5], to_moment * moment[8]);
+  for (int k = 0; k < 10; k++) {
+    static const int from[] = {0, 1, 2, 4, 5, 8};
+    solid[k] = k == 0  ? to_volume * solid[k]
+               : k < 4 ? SCALE * solid[k]
+                       : to_moment * moment[from[k - 4]];
+  }
+  print_numbers("solid", solid, 10);
   gmshFree(moment);
   print_section(body);
   fflush(out);
@@ -430,6 +452,8 @@ int main(int argc, char **argv) {
   }
   // The first limit ends it by SIGXCPU, which the reader knows.
   setrlimit(RLIMIT_CPU, &(struct rlimit){SB_CAD_SECONDS_MAX, SB_CAD_SECONDS_MAX + 5});
+  sigaction(SIGALRM, &(struct sigaction){.sa_handler = on_alarm, .sa_flags = SA_RESTART}, NULL);
+  setitimer(ITIMER_REAL, &(struct itimerval){{1, 0}, {1, 0}}, NULL);
   setrlimit(RLIMIT_CORE, &(struct rlimit){0, 0});
   // It writes no files, whatever the library would like to keep.
   signal(SIGXFSZ, SIG_IGN);
@@ -474,9 +498,10 @@ int main(int argc, char **argv) {
   gsl_set_error_handler_off();
   check(!find_axis(&axis, bodies, 2 * solids, direction, through),
         "it has no face of revolution, so no axis: specify it with --axis and --through");
-  fprintf(out, "axis %.17g %.17g %.17g %.17g %.17g %.17g\n", SCALE * axis.point[0],
-          SCALE * axis.point[1], SCALE * axis.point[2], axis.direction[0], axis.direction[1],
-          axis.direction[2]);
+  print_numbers("axis",
+                (double[]){SCALE * axis.point[0], SCALE * axis.point[1], SCALE * axis.point[2],
+                           axis.direction[0], axis.direction[1], axis.direction[2]},
+                6);
   place(bodies, 2 * solids, &axis, strtod(argv[2], NULL));
   for (size_t i = 0; i < solids; i++) {
     print_body(bodies[2 * i + 1], (int)i + 1);

@@ -25,18 +25,6 @@ typedef struct {
   SbSolid solid;
 } Shell;
 
-bool sb_cad_is_stl(const char *data, gsize length) {
-  const gsize head = 84, facet = 50;
-  if (length >= head) {
-    const guint8 *n = (const guint8 *)data + 80;
-    const guint64 count = n[0] | (guint64)n[1] << 8 | (guint64)n[2] << 16 | (guint64)n[3] << 24;
-    if (length == head + facet * count) {
-      return true;
-    }
-  }
-  return length > 6 && g_ascii_strncasecmp(data, "solid", 5) == 0;
-}
-
 // Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part, and
 // writes its length [m]; NULL with an error that names the plausible units.
 static const char *guess_unit(double side, double *scale, GError **error) {
@@ -57,8 +45,8 @@ static const char *guess_unit(double side, double *scale, GError **error) {
     }
   }
   if (count != 1) {
-    g_set_error(
-        error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+    sb_app_error_input(
+        error,
         "an STL file states no unit, and its longest side of %.4g is %s: specify it with --unit",
         side, count > 0 ? all->str : "that of a valve's part in none");
   }
@@ -82,7 +70,7 @@ static unsigned root(unsigned *parent, unsigned v) {
 typedef struct {
   double volume; // signed: a cavity has a negative one
   double low[3], high[3];
-  guint shell; // that it belongs to
+  guint owner, shell; // the part whose body it belongs to; index of that part's body
 } Part;
 
 // Adds a triangle's corners and its tetrahedron with the point `from`.
@@ -135,7 +123,8 @@ static GArray *find_parts(const SbStl *stl, guint *part_of, GError **error) {
   for (gsize i = 0; i < stl->triangle_count; i++) {
     const unsigned *corner = stl->triangles + 3 * i, top = root(parent, corner[0]);
     if (part_of[top] == G_MAXUINT) {
-      const Part none = {0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0};
+      const Part none = {
+          0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0};
       part_of[top] = parts->len;
       g_array_append_val(parts, none);
     }
@@ -149,49 +138,52 @@ static GArray *find_parts(const SbStl *stl, guint *part_of, GError **error) {
     solids += g_array_index(parts, Part, i).volume > 0;
   }
   if (solids > SB_CAD_BODIES_MAX || parts->len > 100 * SB_CAD_BODIES_MAX) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "it contains more than %d bodies: export the seal's parts alone",
-                SB_CAD_BODIES_MAX);
+    sb_app_error_input(error, "it contains more than %d bodies: export the seal's parts alone",
+                       SB_CAD_BODIES_MAX);
     g_clear_pointer(&parts, g_array_unref);
   }
   return parts;
 }
 
-// Separates the bodies of a mesh, each with its cavities, and measures them. NULL with an error.
+// Separates the bodies of a mesh, each with its cavities. NULL with an error.
 static GArray *separate(const SbStl *stl, GError **error) {
   g_autofree guint *part_of = g_new(guint, stl->vertex_count);
   g_autoptr(GArray) parts = find_parts(stl, part_of, error);
+  if (parts == NULL) {
+    return NULL;
+  }
   g_autoptr(GArray) shells = g_array_new(FALSE, FALSE, sizeof(Shell));
   g_array_set_clear_func(shells, clear_shell);
-  for (guint pass = 0; parts != NULL && pass < 2; pass++) {
-    for (guint i = 0; i < parts->len; i++) {
-      Part *part = &g_array_index(parts, Part, i);
-      const guint outer = pass == 0 ? i : enclosing(parts, i);
-      if (pass == 1 && part->volume <= 0 && outer != i) {
-        part->shell = g_array_index(parts, Part, outer).shell;
-      } else if (part->volume > 0 ? pass == 0 : pass == 1) {
-        const Shell shell = {.triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned))};
-        part->shell = shells->len;
-        g_array_append_val(shells, shell);
-      }
+  for (guint i = 0; i < parts->len; i++) {
+    Part *part = &g_array_index(parts, Part, i);
+    part->owner = part->volume > 0 ? i : enclosing(parts, i);
+    if (part->owner == i) {
+      const Shell shell = {.triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned))};
+      part->shell = shells->len;
+      g_array_append_val(shells, shell);
     }
   }
-  for (gsize i = 0; parts != NULL && i < stl->triangle_count; i++) {
+  for (gsize i = 0; i < stl->triangle_count; i++) {
     const unsigned *corner = stl->triangles + 3 * i;
-    const guint shell = g_array_index(parts, Part, part_of[corner[0]]).shell;
+    const guint owner = g_array_index(parts, Part, part_of[corner[0]]).owner;
+    const guint shell = g_array_index(parts, Part, owner).shell;
     g_array_append_vals(g_array_index(shells, Shell, shell).triangles, corner, 1);
   }
+  return g_steal_pointer(&shells);
+}
+
+// Measures the bodies where the mesh is now. False with an error if one is not closed.
+static bool measure(const SbStl *stl, GArray *shells, GError **error) {
   for (guint i = 0; i < shells->len; i++) {
     Shell *shell = &g_array_index(shells, Shell, i);
     SbReport report = {0};
     if (sb_solid_mesh(&shell->solid, stl->vertices, stl->vertex_count,
                       (const unsigned *)(void *)shell->triangles->data, shell->triangles->len, 1,
                       &report) != SB_OK) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "body %u: %s", i + 1, report.text);
-      return NULL;
+      return sb_app_error_input(error, "body %u: %s", i + 1, report.text);
     }
   }
-  return parts != NULL ? g_steal_pointer(&shells) : NULL;
+  return true;
 }
 
 // The axis ----------------------------------------------------------------------------------------
@@ -213,20 +205,14 @@ static double asymmetry(const GArray *shells, int axis) {
 static void frame_of(double frame[3][3], const double axis[3]) {
   const double length = hypot(hypot(axis[0], axis[1]), axis[2]);
   int main = 0;
-  for (int k = 1; k < 3; k++) {
-    main = fabs(axis[k]) > fabs(axis[main]) ? k : main;
-  }
   for (int k = 0; k < 3; k++) {
+    main = fabs(axis[k]) > fabs(axis[main]) ? k : main;
     frame[0][k] = axis[k] / length;
   }
-  const double off = frame[0][(main + 1) % 3];
-  double norm = 0;
+  const int next = (main + 1) % 3;
+  const double off = frame[0][next], norm = sqrt(1 - off * off);
   for (int k = 0; k < 3; k++) {
-    frame[1][k] = (k == (main + 1) % 3) - off * frame[0][k];
-    norm = hypot(norm, frame[1][k]);
-  }
-  for (int k = 0; k < 3; k++) {
-    frame[1][k] /= norm;
+    frame[1][k] = ((k == next) - off * frame[0][k]) / norm;
   }
   for (int k = 0; k < 3; k++) {
     const int a = (k + 1) % 3, b = (k + 2) % 3;
@@ -241,9 +227,9 @@ static void turn_point(double point[3], const double frame[3][3]) {
   }
 }
 
-// Turns and moves the mesh and its bodies so that the axis is x. `through`: NULL, the middle of the
-// box, unless the axis is as good as there.
-static void place(SbStl *stl, GArray *shells, const double frame[3][3], const double *through) {
+// Turns and moves the mesh so that the axis is x. `through`: NULL, the middle of the box, unless
+// the axis is as good as there.
+static void place(SbStl *stl, const double frame[3][3], const double *through) {
   double low[3], high[3], to[3] = {0};
   for (gsize i = 0; i < stl->vertex_count; i++) {
     turn_point(stl->vertices + 3 * i, frame);
@@ -261,24 +247,6 @@ static void place(SbStl *stl, GArray *shells, const double frame[3][3], const do
   for (gsize i = 0; i < stl->vertex_count; i++) {
     stl->vertices[3 * i + 1] -= to[1];
     stl->vertices[3 * i + 2] -= to[2];
-  }
-  for (guint i = 0; i < shells->len; i++) {
-    SbSolid *solid = &g_array_index(shells, Shell, i).solid;
-    double half[3][3];
-    turn_point(solid->centre, frame);
-    solid->centre[1] -= to[1];
-    solid->centre[2] -= to[2];
-    for (int pass = 0; pass < 2; pass++) { // frame * inertia * frame'
-      for (int k = 0; k < 3; k++) {
-        for (int l = 0; l < 3; l++) {
-          half[l][k] = solid->inertia[k][l];
-        }
-      }
-      for (int k = 0; k < 3; k++) {
-        turn_point(half[k], frame);
-        memcpy(solid->inertia[k], half[k], sizeof half[k]);
-      }
-    }
   }
 }
 
@@ -345,30 +313,35 @@ static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell
   angle[first] = swap;
 }
 
+// Returns a drawing with a body and its half-section at an angle, and warnings.
+static SbCad *section_at(const SbStl *stl, const Shell *shell, const char *name, double angle) {
+  const SbCadChoices none = {0};
+  SbCad *cad = sb_cad_new("");
+  g_autoptr(GArray) pieces = cut(stl, shell, angle);
+  SbCadBody *body = sb_cad_body_new(name);
+  g_ptr_array_add(cad->bodies, body);
+  sb_cad_section(cad, body, pieces, GAP);
+  sb_cad_settle(cad, &none);
+  return cad;
+}
+
 // Adds a body with its half-section: without a chosen angle at the first of the farthest vertices,
 // or where the half-plane meets clearly more of the body, as next to ports.
 static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
                      const SbCadChoices *choices) {
-  double angle[SECTORS], best = 0;
+  double angle[SECTORS];
   farthest(angle, stl, shell);
-  g_autoptr(SbCad) chosen = NULL;
-  const SbCadChoices none = {0};
-  for (int k = 0; k < (choices->angle != NULL ? 1 : SECTORS); k++) {
-    const double at = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[k];
-    if (isnan(at) || fabs(best / shell->solid.volume - 1) < ROUND) {
+  angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
+  g_autoptr(SbCad) chosen = section_at(stl, shell, name, angle[0]);
+  for (int k = 1; choices->angle == NULL && k < SECTORS; k++) {
+    const double best = ((SbCadBody *)chosen->bodies->pdata[0])->revolved.volume;
+    if (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < ROUND) {
       continue;
     }
-    g_autoptr(SbCad) tried = sb_cad_new("");
-    g_autoptr(GArray) pieces = cut(stl, shell, at);
-    SbCadBody *body = sb_cad_body_new(name);
-    g_ptr_array_add(tried->bodies, body);
-    sb_cad_section(tried, body, pieces, GAP);
-    sb_cad_settle(tried, &none);
-    if (chosen == NULL || body->revolved.volume > (1 + MORE) * best) {
-      best = body->revolved.volume;
-      sb_cad_free(chosen);
-      chosen = g_steal_pointer(&tried);
-    }
+    SbCad *tried = section_at(stl, shell, name, angle[k]);
+    const bool more = ((SbCadBody *)tried->bodies->pdata[0])->revolved.volume > (1 + MORE) * best;
+    sb_cad_free(more ? chosen : tried);
+    chosen = more ? tried : chosen;
   }
   SbCadBody *body = g_ptr_array_steal_index(chosen->bodies, 0);
   g_array_set_size(body->features, 0);
@@ -394,7 +367,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   sb_stl_extent(stl, low, high);
   const double side = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
   const char *unit = choices->unit;
-  if (unit != NULL ? !sb_cad_unit(&scale, unit, error)
+  if (unit != NULL ? !sb_unit_scale(&scale, unit, "m", "mm", error)
                    : (unit = guess_unit(side, &scale, error)) == NULL) {
     return NULL;
   }
@@ -402,7 +375,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     stl->vertices[i] *= scale;
   }
   g_autoptr(GArray) shells = separate(stl, error);
-  if (shells == NULL) {
+  if (shells == NULL || !measure(stl, shells, error)) {
     return NULL;
   }
   int along = 0;
@@ -413,13 +386,16 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   const double *axis = choices->axis != NULL ? choices->axis : found;
   double frame[3][3];
   frame_of(frame, axis);
-  place(stl, shells, (const double(*)[3])frame, choices->through);
+  place(stl, (const double(*)[3])frame, choices->through);
+  if (!measure(stl, shells, error)) {
+    return NULL;
+  }
   SbCad *cad = sb_cad_new("STL");
   cad->unit = g_strdup(unit);
   cad->axis = sb_cad_axis_text(choices->through, axis);
   if (choices->unit == NULL) {
-    sb_cad_note(cad, "an STL file states no unit: in %s its longest side is %.4g mm", unit,
-                1e3 * scale * side);
+    sb_note_add(cad->warnings, "an STL file states no unit: in %s its longest side is %.4g mm",
+                unit, 1e3 * scale * side);
   }
   g_autofree char *name = name_of(path);
   for (guint i = 0; i < shells->len; i++) {
@@ -436,12 +412,10 @@ SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
   if (!sb_stl_parse(&stl, data, length, "m", path, error)) {
     return NULL;
   }
-  GError *problem = NULL;
-  SbCad *cad = of_mesh(&stl, path, choices, &problem);
+  SbCad *cad = of_mesh(&stl, path, choices, error);
   sb_stl_clear(&stl);
-  if (problem != NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: %s", path, problem->message);
-    g_error_free(problem);
+  if (cad == NULL) {
+    sb_app_error_prefix(error, path);
   }
   return cad;
 }

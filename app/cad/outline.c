@@ -2,7 +2,6 @@
 #include "app/base/number.h"
 #include "app/cad/cad_private.h"
 #include "app/cad/profile.h"
-#include "engine/numeric/arc.h"
 
 #include <math.h>
 #include <string.h>
@@ -79,17 +78,12 @@ static void turn(GArray *chain) {
   }
 }
 
-static SbArc circle_of(const SbCadPiece *piece) {
-  const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
-  return sb_arc_of(from, to, piece->bulge);
-}
-
 // The point of a piece at a fraction of its length.
 static void point_of(const SbCadPiece *piece, double part, double at[2]) {
   at[0] = piece->x0 + part * (piece->x1 - piece->x0);
   at[1] = piece->y0 + part * (piece->y1 - piece->y0);
   if (piece->bulge != 0) {
-    const SbArc arc = circle_of(piece);
+    const SbArc arc = sb_cad_circle(piece);
     sb_arc_place(&arc, part, at);
   }
 }
@@ -97,19 +91,9 @@ static void point_of(const SbCadPiece *piece, double part, double at[2]) {
 // Returns the place of a point on the line or circle of a piece as a fraction of its length; not a
 // number if the point is farther than `same` from it.
 static double place_on(const SbCadPiece *piece, double x, double y, double same) {
-  if (piece->bulge != 0) {
-    const SbArc arc = circle_of(piece);
-    const double u = x - arc.centre[0], v = y - arc.centre[1], once = 2 * M_PI / fabs(arc.sweep);
-    const double part = fmod((atan2(v, u) - arc.start) / arc.sweep, once);
-    // Centred on the piece: a point just before the start has a small negative place.
-    const double centred = part < 0.5 - once / 2   ? part + once
-                           : part > 0.5 + once / 2 ? part - once
-                                                   : part;
-    return fabs(hypot(u, v) - arc.radius) <= same ? centred : NAN;
-  }
-  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, chord = hypot(dx, dy);
-  const double off = ((y - piece->y0) * dx - (x - piece->x0) * dy) / chord;
-  return fabs(off) <= same ? ((x - piece->x0) * dx + (y - piece->y0) * dy) / (chord * chord) : NAN;
+  double off;
+  const double place = sb_cad_place(piece, x, y, &off);
+  return off <= same ? place : NAN;
 }
 
 // A piece with the circle about its middle in which it is.
@@ -211,29 +195,19 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   piece.y1 = fabs(piece.y1) <= gap ? 0 : piece.y1;
   double at[4] = {0, 1, 1, 1}; // where the piece is cut, as parts of its length
   int cuts = 1;
-  SbArc arc = {0};
-  if (piece.bulge == 0) {
-    if (piece.y0 * piece.y1 < 0) {
-      at[cuts++] = piece.y0 / (piece.y0 - piece.y1);
-    }
-  } else {
-    arc = circle_of(&piece);
-    const double height = arc.centre[1];
-    const double half = arc.radius > fabs(height) ? acos(-height / arc.radius) : NAN;
-    // Angles of the axis on the circle: sin = -centre / radius.
-    for (int side = -1; side <= 1 && !isnan(half); side += 2) {
-      const double phi = M_PI / 2 + side * half;
-      const double once = 2 * M_PI / fabs(arc.sweep);
-      double part = fmod((phi - arc.start) / arc.sweep, once);
-      part += part < 0 ? once : 0;
+  if (piece.bulge == 0 && piece.y0 * piece.y1 < 0) {
+    at[cuts++] = piece.y0 / (piece.y0 - piece.y1);
+  } else if (piece.bulge != 0) {
+    const SbArc arc = sb_cad_circle(&piece);
+    const double half = sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
+    for (int side = -1; side <= 1 && half > 0; side += 2) {
+      const double part = place_on(&piece, arc.centre[0] + side * half, 0, INFINITY);
       if (part > 1e-9 && part < 1 - 1e-9) {
         at[cuts++] = part;
       }
     }
     if (cuts == 3 && at[1] > at[2]) {
-      const double swap = at[1];
-      at[1] = at[2];
-      at[2] = swap;
+      memcpy(at + 1, (double[]){at[2], at[1]}, 2 * sizeof *at);
     }
   }
   at[cuts] = 1;
@@ -263,7 +237,7 @@ static bool on_axis(const SbCadPiece *piece, double gap) {
 
 // Joins the piece `next` to the arc `last` if both are of one circle.
 static bool join_arcs(SbCadPiece *last, const SbCadPiece *next) {
-  const SbArc a = circle_of(last), b = circle_of(next);
+  const SbArc a = sb_cad_circle(last), b = sb_cad_circle(next);
   // Through the three ends, which are better known than either piece's curvature.
   const SbCadPiece both =
       sb_cad_arc((const double[2]){last->x0, last->y0}, (const double[2]){next->x0, next->y0},
@@ -353,36 +327,33 @@ static void half_section(SbCadBody *body, const GArray *chain, bool closed, doub
     body->why = above->len > 0 ? g_strdup("it crosses the axis more than twice") : NULL;
     return;
   }
-  if (breaks == 1 && begin > 0) {
-    g_autoptr(GArray) turned = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-    g_array_append_vals(turned, &g_array_index(above, SbCadPiece, begin), above->len - begin);
-    g_array_append_vals(turned, above->data, begin);
-    to_profile(body, turned, false);
-  } else {
-    to_profile(body, above, breaks == 0 && closed);
+  g_autoptr(GArray) turned = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  for (guint i = 0; i < above->len; i++) {
+    g_array_append_val(turned, g_array_index(above, SbCadPiece, (begin + i) % above->len));
   }
+  to_profile(body, turned, breaks == 0 && closed);
 }
 
 typedef struct {
   GArray *chain; // of SbCadPiece
   bool closed;
-  double low, high; // of y
+  double high; // largest y
 } Outline;
 
 static void clear_outline(gpointer data) {
   g_array_unref(((Outline *)data)->chain);
 }
 
-static void find_extent(Outline *outline) {
-  outline->low = INFINITY;
-  outline->high = -INFINITY;
-  for (guint i = 0; i < outline->chain->len; i++) {
-    const SbCadPiece *piece = &g_array_index(outline->chain, SbCadPiece, i);
+// Largest y of a chain.
+static double top_of(const GArray *chain) {
+  double high = -INFINITY;
+  for (guint i = 0; i < chain->len; i++) {
+    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
     double middle[2]; // of the arc, which is enough to find the side
     point_of(piece, 0.5, middle);
-    outline->low = fmin(outline->low, fmin(fmin(piece->y0, piece->y1), middle[1]));
-    outline->high = fmax(outline->high, fmax(fmax(piece->y0, piece->y1), middle[1]));
+    high = fmax(high, fmax(fmax(piece->y0, piece->y1), middle[1]));
   }
+  return high;
 }
 
 // Warns about open chains, whose ends are pairs of points in `ends`: the largest distance from an
@@ -401,8 +372,8 @@ static void note_open(SbCad *cad, const char *name, const GArray *ends) {
     largest = fmax(largest, nearest);
   }
   char gap[SB_NUMBER_SIZE];
-  sb_cad_note(cad, "%s: %u line%s to no outline: ends are up to %s mm apart", name, count / 2,
-              count > 2 ? "s that close" : " that closes",
+  sb_note_add(cad->warnings, "%s: %u line%s to no outline: ends are up to %s mm apart", name,
+              count / 2, count > 2 ? "s that close" : " that closes",
               sb_number_round(gap, 1e3 * sqrt(largest), 3));
 }
 
@@ -421,7 +392,7 @@ static GArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name,
       continue;
     }
     used[i] = true;
-    Outline outline = {g_array_new(FALSE, FALSE, sizeof(SbCadPiece)), false, 0, 0};
+    Outline outline = {g_array_new(FALSE, FALSE, sizeof(SbCadPiece)), false, 0};
     g_array_append_val(outline.chain, g_array_index(pieces, SbCadPiece, i));
     outline.closed = extend(outline.chain, pieces, used, gap);
     if (!outline.closed) {
@@ -436,7 +407,7 @@ static GArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name,
       g_array_unref(outline.chain);
       continue;
     }
-    find_extent(&outline);
+    outline.high = top_of(outline.chain);
     g_array_append_val(outlines, outline);
   }
   if (ends->len > 0) {
@@ -457,14 +428,16 @@ static bool is_degenerate(const GArray *profile, double gap) {
 
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
   if (pieces->len > PIECES_MAX) {
-    sb_cad_note(cad, "%s: %u pieces, more than %d: left out", name, pieces->len, PIECES_MAX);
+    sb_note_add(cad->warnings, "%s: %u pieces, more than %d: left out", name, pieces->len,
+                PIECES_MAX);
     return;
   }
   guint doubled = 0, made = 0;
   g_autoptr(GArray) single = tidied(pieces, fmin(gap, DOUBLED), &doubled);
   g_autoptr(GArray) outlines = find_outlines(cad, single, name, gap);
   if (doubled > 0) {
-    sb_cad_note(cad, "%s: %u piece%s drawn twice: left out", name, doubled, doubled > 1 ? "s" : "");
+    sb_note_add(cad->warnings, "%s: %u piece%s drawn twice: left out", name, doubled,
+                doubled > 1 ? "s" : "");
   }
   bool above = false;
   for (guint i = 0; i < outlines->len; i++) {
@@ -510,7 +483,8 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces, double ga
     return;
   }
   if (count > 1) {
-    sb_cad_note(cad, "%s: cut into %u pieces or hollow inside; the largest outline is its profile",
+    sb_note_add(cad->warnings,
+                "%s: cut into %u pieces or hollow inside; the largest outline is its profile",
                 body->name, count);
   }
   g_array_append_vals(body->profile, best->profile->data, best->profile->len);

@@ -27,8 +27,7 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
       continue;
     }
     if (scale == 0) {
-      g_autofree char *one = g_strdup_printf("1 %s", *word);
-      if (!sb_quantity_parse(&scale, one, "m", "mm", NULL) || scale <= 0) {
+      if (!sb_unit_scale(&scale, *word, "m", "mm", NULL)) {
         sb_app_error_input(error, "starts with the unit of its points, not '%s'", *word);
         return NULL;
       }
@@ -71,18 +70,12 @@ double sb_profile_area(const GArray *profile) {
   return sum;
 }
 
-static void reverse(GArray *profile, bool closed) {
-  const guint n = profile->len;
-  g_autofree SbProfilePoint *old = g_memdup2(profile->data, n * sizeof *old);
+void sb_profile_turn(GArray *points, bool closed) {
+  const guint n = sb_profile_area(points) < 0 ? points->len : 0;
+  g_autofree SbProfilePoint *old = g_memdup2(points->data, n * sizeof *old);
   for (guint i = 0; i < n; i++) {
-    SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
+    SbProfilePoint *p = &g_array_index(points, SbProfilePoint, i);
     *p = old[n - 1 - i];
     p->bulge = i + 1 < n ? -old[n - 2 - i].bulge : closed ? -old[n - 1].bulge : 0;
-  }
-}
-
-void sb_profile_turn(GArray *points, bool closed) {
-  if (sb_profile_area(points) < 0) {
-    reverse(points, closed);
   }
 }

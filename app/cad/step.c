@@ -1,6 +1,5 @@
 // STEP files through sealbench-cad (helper.c), which limits its own processor time and memory. Time
-// on the clock has no influence: a loaded machine reads what an idle one reads. Only a helper that
-// uses no processor time at all for STALLED_MAX seconds is ended.
+// on the clock has no influence: a loaded machine reads what an idle one reads.
 #include "app/cad/cad_private.h"
 
 #include "app/base/error.h"
@@ -10,11 +9,9 @@
 
 #include <math.h>
 #include <signal.h>
-#include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
-enum { STALLED_MAX = 120, TEXT_MAX = 64 << 20 };
+enum { TEXT_MAX = 64 << 20 };
 
 // Beside this program where it is not installed, else in libexecdir.
 static char *helper_path(void) {
@@ -35,55 +32,13 @@ static char *helper_path(void) {
   return NULL;
 }
 
-typedef struct {
-  GSubprocess *process;
-  GMainLoop *loop;
-  char *text;
-  GError *error;
-  double processor; // time that the process had used when it was last looked at [s]
-  int stalled;      // for how many seconds it has used none
-  bool out_of_time; // it has reached its limit of processor time
-} Helper;
-
-static void on_done(GObject *process, GAsyncResult *result, gpointer data) {
-  Helper *helper = data;
-  g_autoptr(GBytes) bytes = NULL;
-  g_subprocess_communicate_finish(G_SUBPROCESS(process), result, &bytes, NULL, &helper->error);
-  gsize length = 0;
-  const char *text = bytes != NULL ? g_bytes_get_data(bytes, &length) : NULL;
-  helper->text = text != NULL ? g_strndup(text, MIN(length, TEXT_MAX)) : g_strdup("");
-  g_main_loop_quit(helper->loop);
-}
-
-// Processor time of the process [s]; -1 where it has ended.
-static double processor_time(GSubprocess *process) {
-  const char *number = g_subprocess_get_identifier(process);
-  clockid_t clock;
-  struct timespec used;
-  const bool known = number != NULL &&
-                     clock_getcpuclockid((pid_t)strtol(number, NULL, 10), &clock) == 0 &&
-                     clock_gettime(clock, &used) == 0;
-  return known ? (double)used.tv_sec + 1e-9 * (double)used.tv_nsec : -1;
-}
-
-static gboolean on_second(gpointer data) {
-  Helper *helper = data;
-  const double now = processor_time(helper->process);
-  helper->stalled = now > helper->processor ? 0 : helper->stalled + 1;
-  helper->processor = now;
-  if (helper->stalled >= STALLED_MAX) {
-    g_subprocess_force_exit(helper->process);
-  }
-  return G_SOURCE_CONTINUE;
-}
-
 // What the helper prints; NULL with an error.
 static char *run_helper(const char *path, const SbCadChoices *choices, GError **error) {
   g_autofree char *program = helper_path();
   if (program == NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "STEP files need sealbench-cad, which this build lacks: run tools/setup step and "
-                "then ./run where the sources are, or save a DXF of the section instead");
+    sb_app_error_input(
+        error, "STEP files need sealbench-cad, which this build lacks: run tools/setup step and "
+               "then ./run where the sources are, or save a DXF of the section instead");
     return NULL;
   }
   // A plane off those in which ports and flats are drawn.
@@ -97,39 +52,27 @@ static char *run_helper(const char *path, const SbCadChoices *choices, GError **
     sb_number_format(number[i], value[i]);
   }
   g_autofree char *whole = g_canonicalize_filename(path, NULL);
-  g_autoptr(GMainContext) context = g_main_context_new();
-  g_main_context_push_thread_default(context);
-  Helper helper = {.loop = g_main_loop_new(context, FALSE)};
-  helper.process = g_subprocess_new(
+  g_autoptr(GBytes) bytes = NULL;
+  g_autoptr(GSubprocess) process = g_subprocess_new(
       G_SUBPROCESS_FLAGS_STDOUT_PIPE | G_SUBPROCESS_FLAGS_STDERR_SILENCE, error, program, whole,
       number[0], number[1], number[2], number[3], number[4], number[5], number[6], NULL);
-  if (helper.process != NULL) {
-    GSource *second = g_timeout_source_new_seconds(1);
-    g_source_set_callback(second, on_second, &helper, NULL);
-    g_source_attach(second, context);
-    g_subprocess_communicate_async(helper.process, NULL, NULL, on_done, &helper);
-    g_main_loop_run(helper.loop);
-    g_source_destroy(second);
-    g_source_unref(second);
-    helper.out_of_time = g_subprocess_get_if_signaled(helper.process) &&
-                         g_subprocess_get_term_sig(helper.process) == SIGXCPU;
-    g_object_unref(helper.process);
+  if (process == NULL || !g_subprocess_communicate(process, NULL, NULL, &bytes, NULL, error)) {
+    return NULL;
   }
-  g_main_loop_unref(helper.loop);
-  g_main_context_pop_thread_default(context);
-  if (helper.error != NULL) {
-    g_propagate_error(error, helper.error);
-    g_clear_pointer(&helper.text, g_free);
-  } else if (helper.out_of_time || helper.stalled >= STALLED_MAX) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                helper.out_of_time
-                    ? "the CAD kernel needs more processor time than sealbench-cad allows (%d s): "
-                      "save the section alone as STEP or DXF"
-                    : "the CAD kernel has done nothing for %d s and was ended",
-                helper.out_of_time ? SB_CAD_SECONDS_MAX : STALLED_MAX);
-    g_clear_pointer(&helper.text, g_free);
+  const int signal = g_subprocess_get_if_signaled(process) ? g_subprocess_get_term_sig(process) : 0;
+  if (signal == SIGXCPU || signal == SIGALRM) {
+    sb_app_error_input(
+        error,
+        signal == SIGXCPU
+            ? "the CAD kernel needs more processor time than sealbench-cad allows (%d s): "
+              "save the section alone as STEP or DXF"
+            : "the CAD kernel has done nothing for %d s and was ended",
+        signal == SIGXCPU ? SB_CAD_SECONDS_MAX : SB_CAD_STALLED_MAX);
+    return NULL;
   }
-  return helper.text;
+  gsize length = 0;
+  const char *text = g_bytes_get_data(bytes, &length);
+  return g_strndup(text != NULL ? text : "", MIN(length, TEXT_MAX));
 }
 
 static bool read_numbers(double *out, int count, const char *text) {
@@ -153,8 +96,7 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
     const char *line = *each;
     double n[10];
     if (g_str_has_prefix(line, "error ")) {
-      sb_app_error_input(error, "%s", line + 6);
-      return false;
+      return sb_app_error_input(error, "%s", line + 6);
     }
     const bool end = strcmp(line, "end") == 0;
     if ((end || g_str_has_prefix(line, "body ")) && body != NULL) {
@@ -183,25 +125,18 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
       g_array_append_val(pieces, piece);
     }
   }
-  g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-              "ends the CAD kernel before it is read (a crash, or more than 4 GB)");
-  return false;
+  return sb_app_error_input(error,
+                            "ends the CAD kernel before it is read (a crash, or more than 4 GB)");
 }
 
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error) {
-  GError *problem = NULL;
-  g_autofree char *report = run_helper(path, choices, &problem);
-  SbCad *cad = report != NULL ? sb_cad_new("STEP") : NULL;
-  if (cad != NULL && !take_text(cad, report, &problem)) {
-    g_clear_pointer(&cad, sb_cad_free);
+  g_autofree char *report = run_helper(path, choices, error);
+  g_autoptr(SbCad) cad = sb_cad_new("STEP");
+  if (report == NULL || !take_text(cad, report, error)) {
+    sb_app_error_prefix(error, shown);
+    return NULL;
   }
-  if (cad != NULL) {
-    sb_cad_settle(cad, choices);
-  }
-  if (problem != NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: %s", shown, problem->message);
-    g_error_free(problem);
-  }
-  return cad;
+  sb_cad_settle(cad, choices);
+  return g_steal_pointer(&cad);
 }

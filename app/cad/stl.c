@@ -1,6 +1,7 @@
 // See stl.h.
 #include "app/cad/stl.h"
 
+#include "app/base/bytes.h"
 #include "app/base/reader.h"
 #include "app/base/unit.h"
 #include "app/cad/cad_private.h"
@@ -12,20 +13,6 @@ enum { HEADER = 84, RECORD = 50 };
 
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
 static const size_t length_max = (size_t)SB_STL_TRIANGLES_MAX * 512;
-
-// Corners as they are read, nine numbers a triangle [m].
-typedef struct {
-  GArray *corners;
-  double scale;
-} Builder;
-
-static void add_triangle(Builder *b, const double corner[9]) {
-  double scaled[9];
-  for (int k = 0; k < 9; k++) {
-    scaled[k] = b->scale * corner[k];
-  }
-  g_array_append_vals(b->corners, scaled, 9);
-}
 
 // ---- welding ----
 
@@ -139,30 +126,27 @@ static void weld(SbStl *out, const double *corners, gsize triangles, double tole
 
 // ---- binary ----
 
-static guint32 little_endian(const char *p) {
-  const guchar *u = (const guchar *)p;
-  return (guint32)u[0] | (guint32)u[1] << 8 | (guint32)u[2] << 16 | (guint32)u[3] << 24;
+// Whether the length of a file fits the number of triangles in a binary header. Binary files may
+// start with "solid" too.
+static bool is_binary(const char *data, gsize length) {
+  return length >= HEADER && length == HEADER + RECORD * (gsize)sb_bytes_u32(data + 80);
 }
 
-static gboolean read_binary(Builder *b, const char *data, gsize count, const char *name,
-                            GError **error) {
-  for (gsize i = 0; i < count; i++) {
-    double corner[9];
-    for (gsize k = 0; k < 9; k++) {
-      // 12 bytes of normal come first; the corners' order gives it again.
-      guint32 bits = little_endian(data + HEADER + RECORD * i + 12 + 4 * k);
-      float value;
-      memcpy(&value, &bits, sizeof value);
-      corner[k] = (double)value;
-      if (!isfinite(corner[k])) {
-        g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                    "%s: triangle %" G_GSIZE_FORMAT " has a corner that is not a number", name, i);
-        return FALSE;
-      }
-    }
-    add_triangle(b, corner);
+static bool read_binary(GArray *corners, const char *data, gsize length, GError **error) {
+  const gsize count = (length - HEADER) / RECORD;
+  if (count > SB_STL_TRIANGLES_MAX) {
+    return sb_app_error_input(error, "more than %d triangles", SB_STL_TRIANGLES_MAX);
   }
-  return TRUE;
+  for (gsize i = 0; i < 9 * count; i++) {
+    // 12 bytes of normal come first; the corners' order gives it again.
+    const double number = sb_bytes_float(data + HEADER + RECORD * (i / 9) + 12 + 4 * (i % 9));
+    if (!isfinite(number)) {
+      return sb_app_error_input(
+          error, "triangle %" G_GSIZE_FORMAT " has a corner that is not a number", i / 9);
+    }
+    g_array_append_val(corners, number);
+  }
+  return true;
 }
 
 // ---- text ----
@@ -170,165 +154,117 @@ static gboolean read_binary(Builder *b, const char *data, gsize count, const cha
 typedef struct {
   const char *at, *end;
   int line;
+  char word[SB_NUMBER_LENGTH_MAX + 2]; // the last one, cut: too long for a number then
 } Text;
 
-// Next word into `word`, cut at its size; its whole length, 0 at the end.
-static gsize next_word(Text *t, char *word, gsize size) {
+// Reads the next word; false at the end.
+static bool next_word(Text *t) {
   while (t->at < t->end && g_ascii_isspace(*t->at)) {
-    t->line += *t->at == '\n';
-    t->at++;
+    t->line += *t->at++ == '\n';
   }
-  const char *start = t->at;
-  while (t->at < t->end && !g_ascii_isspace(*t->at)) {
-    t->at++;
+  gsize length = 0;
+  for (; t->at < t->end && !g_ascii_isspace(*t->at); t->at++) {
+    t->word[length] = *t->at;
+    length += length + 1 < sizeof t->word;
   }
-  gsize length = (gsize)(t->at - start), kept = MIN(length, size - 1);
-  memcpy(word, start, kept);
-  word[kept] = '\0';
-  return length;
+  t->word[length] = '\0';
+  return length > 0;
 }
 
-static void skip_line(Text *t) {
-  while (t->at < t->end && *t->at != '\n') {
-    t->at++;
-  }
+static bool is_word(const Text *t, const char *word) {
+  return g_ascii_strcasecmp(t->word, word) == 0;
 }
 
-static gboolean expect(Text *t, const char *wanted, const char *name, GError **error) {
-  char word[64];
-  if (next_word(t, word, sizeof word) == 0 || g_ascii_strcasecmp(word, wanted) != 0) {
-    sb_app_error_input(error, "%s:%d: '%s' expected, not '%s'", name, t->line, wanted, word);
-    return FALSE;
-  }
-  return TRUE;
-}
-
-static gboolean numbers(Text *t, double *out, const char *name, GError **error) {
-  for (int k = 0; k < 3; k++) {
-    char word[SB_NUMBER_LENGTH_MAX + 1];
-    gsize length = next_word(t, word, sizeof word);
-    if (length >= sizeof word || !sb_number_parse(&out[k], word)) {
-      sb_app_error_input(error, "%s:%d: a number expected, not '%s'%s", name, t->line, word,
-                         length >= sizeof word ? "... (too long)" : "");
-      return FALSE;
+static bool read_facet(GArray *corners, Text *t, GError **error) {
+  static const struct {
+    const char *word;
+    int numbers, kept; // that follow it
+  } parts[] = {{"normal", 3, 0}, {"outer", 0, 0},  {"loop", 0, 0},    {"vertex", 3, 3},
+               {"vertex", 3, 3}, {"vertex", 3, 3}, {"endloop", 0, 0}, {"endfacet", 0, 0}};
+  for (gsize i = 0; i < G_N_ELEMENTS(parts); i++) {
+    double number[3];
+    if (!next_word(t) || !is_word(t, parts[i].word)) {
+      return sb_app_error_input(error, "line %d: '%s' expected, not '%s'", t->line, parts[i].word,
+                                t->word);
     }
-  }
-  return TRUE;
-}
-
-static gboolean read_facet(Builder *b, Text *t, const char *name, GError **error) {
-  double normal[3], corner[9];
-  if (!expect(t, "normal", name, error) || !numbers(t, normal, name, error) ||
-      !expect(t, "outer", name, error) || !expect(t, "loop", name, error)) {
-    return FALSE;
-  }
-  for (int k = 0; k < 3; k++) {
-    if (!expect(t, "vertex", name, error) || !numbers(t, corner + 3 * k, name, error)) {
-      return FALSE;
-    }
-  }
-  if (!expect(t, "endloop", name, error) || !expect(t, "endfacet", name, error)) {
-    return FALSE;
-  }
-  add_triangle(b, corner);
-  return TRUE;
-}
-
-static gboolean read_text(Builder *b, const char *data, gsize length, const char *name,
-                          GError **error) {
-  Text t = {data, data + length, 1};
-  char word[64];
-  gboolean inside = FALSE;
-  gsize count = 0;
-  while (next_word(&t, word, sizeof word) > 0) {
-    if (!inside && g_ascii_strcasecmp(word, "solid") == 0) {
-      skip_line(&t); // its name
-      inside = TRUE;
-    } else if (inside && g_ascii_strcasecmp(word, "endsolid") == 0) {
-      skip_line(&t);
-      inside = FALSE;
-    } else if (inside && g_ascii_strcasecmp(word, "facet") == 0) {
-      if (++count > SB_STL_TRIANGLES_MAX) {
-        g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: more than %d triangles", name,
-                    SB_STL_TRIANGLES_MAX);
-        return FALSE;
+    for (int k = 0; k < parts[i].numbers; k++) {
+      if (!next_word(t) || !sb_number_parse(&number[k], t->word)) {
+        return sb_app_error_input(error, "line %d: a number expected, not '%s'%s", t->line, t->word,
+                                  strlen(t->word) > SB_NUMBER_LENGTH_MAX ? "... (too long)" : "");
       }
-      if (!read_facet(b, &t, name, error)) {
-        return FALSE;
+    }
+    g_array_append_vals(corners, number, (guint)parts[i].kept);
+  }
+  return true;
+}
+
+static bool read_text(GArray *corners, const char *data, gsize length, GError **error) {
+  Text t = {.at = data, .end = data + length, .line = 1};
+  bool inside = false;
+  while (next_word(&t)) {
+    if (is_word(&t, inside ? "endsolid" : "solid")) {
+      while (t.at < t.end && *t.at != '\n') { // its name
+        t.at++;
       }
-    } else {
-      sb_app_error_input(error, "%s:%d: '%s' is not part of STL", name, t.line, word);
-      return FALSE;
+      inside = !inside;
+    } else if (!inside || !is_word(&t, "facet")) {
+      return sb_app_error_input(error, "line %d: '%s' is not part of STL", t.line, t.word);
+    } else if (corners->len == 9 * SB_STL_TRIANGLES_MAX) {
+      return sb_app_error_input(error, "more than %d triangles", SB_STL_TRIANGLES_MAX);
+    } else if (!read_facet(corners, &t, error)) {
+      return false;
     }
   }
-  if (inside) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: ends before 'endsolid'", name);
-    return FALSE;
-  }
-  return TRUE;
+  return !inside || sb_app_error_input(error, "ends before 'endsolid'");
 }
 
 // ---- public ----
+
+bool sb_cad_is_stl(const char *data, gsize length) {
+  return is_binary(data, length) || (length >= 5 && g_ascii_strncasecmp(data, "solid", 5) == 0);
+}
+
+static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize length, GError **error) {
+  if (!sb_cad_is_stl(data, length)) {
+    return sb_app_error_input(error, "not an STL file, or cut short (%" G_GSIZE_FORMAT " bytes)",
+                              length);
+  }
+  out->text = !is_binary(data, length);
+  if (!(out->text ? read_text : read_binary)(corners, data, length, error)) {
+    return false;
+  }
+  const double *corner = (const double *)(const void *)corners->data;
+  const double tolerance = weld_tolerance(corner, corners->len / 3);
+  if (corners->len > 0 && !isfinite(tolerance)) {
+    return sb_app_error_input(error, "has corners too far from the origin");
+  }
+  weld(out, corner, corners->len / 9, tolerance);
+  return out->triangle_count > 0 || sb_app_error_input(error, "no triangles");
+}
 
 gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
                       const char *name, GError **error) {
   *out = (SbStl){0};
   double scale;
-  if (!sb_cad_unit(&scale, unit, error)) {
-    return FALSE;
+  g_autoptr(GArray) corners = g_array_new(FALSE, FALSE, sizeof(double));
+  const bool good =
+      sb_unit_scale(&scale, unit, "m", "mm", error) && read_mesh(out, corners, data, length, error);
+  for (gsize i = 0; good && i < 3 * out->vertex_count; i++) {
+    out->vertices[i] *= scale;
   }
-  // Binary files may start with "solid" too: their length tells.
-  gsize count = length >= HEADER ? little_endian(data + 80) : 0;
-  gboolean binary = length >= HEADER && length == HEADER + RECORD * count;
-  gboolean text = !binary && length >= 5 && g_ascii_strncasecmp(data, "solid", 5) == 0;
-  if (!binary && !text) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                "%s: not an STL file, or cut short (%" G_GSIZE_FORMAT " bytes)", name, length);
-    return FALSE;
-  }
-  if (binary && count > SB_STL_TRIANGLES_MAX) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: more than %d triangles", name,
-                SB_STL_TRIANGLES_MAX);
-    return FALSE;
-  }
-  Builder b = {g_array_new(FALSE, FALSE, sizeof(double)), scale};
-  out->text = text;
-  gboolean ok =
-      binary ? read_binary(&b, data, count, name, error) : read_text(&b, data, length, name, error);
-  const double *corners = (const double *)(const void *)b.corners->data;
-  double tolerance = weld_tolerance(corners, b.corners->len / 3);
-  if (ok && b.corners->len > 0 && !isfinite(tolerance)) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: has corners too far from the origin",
-                name);
-    ok = FALSE;
-  }
-  if (ok) {
-    weld(out, corners, b.corners->len / 9, tolerance);
-  }
-  if (ok && out->triangle_count == 0) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s: no triangles", name);
-    ok = FALSE;
-  }
-  g_array_unref(b.corners);
-  if (!ok) {
+  if (!good) {
+    sb_app_error_prefix(error, name);
     sb_stl_clear(out);
   }
-  return ok;
+  return good;
 }
 
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error) {
   *out = (SbStl){0};
-  g_autoptr(GPtrArray) issues = sb_issues_new();
   gsize length = 0;
-  g_autofree char *data = sb_reader_load(&length, path, path, length_max, issues);
-  gboolean ok = FALSE;
-  if (data != NULL) {
-    ok = sb_stl_parse(out, data, length, unit, path, error);
-  } else {
-    g_autofree char *line = sb_issue_line(issues->pdata[0]);
-    g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_IO, line);
-  }
-  return ok;
+  g_autofree char *data =
+      sb_reader_load_file(&length, path, path, length_max, SB_APP_ERROR_IO, error);
+  return data != NULL && sb_stl_parse(out, data, length, unit, path, error);
 }
 
 void sb_stl_extent(const SbStl *stl, double low[3], double high[3]) {

@@ -297,7 +297,7 @@ static bool read_history(SbModelSeries *series, SbFilmProblem *problem, const ch
     return false;
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  bool good = sb_series_read_speed(series, path, issues);
+  bool good = sb_series_read(series, SB_SERIES_SPEED, path, issues);
   if (good && series->value[0] == 0) {
     sb_issues_add(issues, path, 0, "speed", NULL, "begins at rest, where no steady film is");
     good = false;

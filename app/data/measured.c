@@ -38,12 +38,10 @@ void sb_measured_free(SbMeasured *measured) {
   for (int i = 0; i < SB_CHANNELS; i++) {
     g_free(measured->column[i].name);
     g_free(measured->column[i].unit);
+    g_free(measured->value[i]);
   }
   g_free(measured->name);
   g_free(measured->skipped_text);
-  g_free(measured->time);
-  g_free(measured->displacement);
-  g_free(measured->force);
   if (measured->cycle != NULL) {
     g_array_unref(measured->cycle);
   }
@@ -52,38 +50,45 @@ void sb_measured_free(SbMeasured *measured) {
 
 // ---- What keys say ----
 
-// Index of a word in "one|two", -1 with an issue.
-static int word_of(const SbData *data, SbDataKey key, const char *words, GPtrArray *issues) {
-  g_auto(GStrv) list = g_strsplit(words, "|", -1);
-  for (int i = 0; list[i] != NULL; i++) {
-    if (strcmp(list[i], data->text[key]) == 0) {
-      return i;
-    }
+static const char *const separator_names[] = {"comma", "semicolon", "tab", "blank", NULL};
+static const char *const decimal_names[] = {"point", "comma", NULL};
+const char *const sb_measured_directions[] = {"as-is", "force", "displacement", "both", NULL};
+static const char separators[] = ",;\t ", decimals[] = ".,";
+
+// Returns the index in `names` (ended by NULL) of a key's text; 0 for an absent key. Another text
+// is an issue.
+size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
+                        GPtrArray *issues) {
+  size_t index = 0;
+  while (data->text[key] != NULL && names[index] != NULL &&
+         strcmp(names[index], data->text[key]) != 0) {
+    index++;
   }
-  g_autofree char *allowed = g_strjoinv(", ", list);
-  sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
-  return -1;
+  if (names[index] == NULL) {
+    g_autofree char *allowed = g_strjoinv(", ", (char **)names);
+    sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
+  }
+  return index;
 }
 
 static bool read_wish(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues) {
+  static const char *const signals[] = {"force over displacement", NULL};
+  const guint before = issues->len;
   *wish = (SbTextTableDialect){0};
   if (data->text[SB_DATA_SEPARATOR] != NULL) {
-    const int at = word_of(data, SB_DATA_SEPARATOR, "comma|semicolon|tab|blank", issues);
-    wish->separator = at >= 0 ? ",;\t "[at] : '\0';
+    wish->separator =
+        separators[sb_measured_word(data, SB_DATA_SEPARATOR, separator_names, issues)];
   }
   if (data->text[SB_DATA_DECIMAL] != NULL) {
-    const int at = word_of(data, SB_DATA_DECIMAL, "point|comma", issues);
-    wish->decimal = at >= 0 ? ".,"[at] : '\0';
+    wish->decimal = decimals[sb_measured_word(data, SB_DATA_DECIMAL, decimal_names, issues)];
   }
   if (data->text[SB_DATA_ENCODING] != NULL) {
-    const int at =
-        word_of(data, SB_DATA_ENCODING, "utf-8|latin-1|utf-16le|utf-16be|shift-jis", issues);
-    wish->encoding = (SbTextTableEncoding)(at + 1);
+    wish->encoding =
+        (SbTextTableEncoding)(1 + sb_measured_word(data, SB_DATA_ENCODING,
+                                                   sb_text_table_encodings + 1, issues));
   }
-  if (data->text[SB_DATA_SIGNAL] != NULL) {
-    (void)word_of(data, SB_DATA_SIGNAL, "force over displacement", issues);
-  }
-  return issues->len == 0;
+  (void)sb_measured_word(data, SB_DATA_SIGNAL, signals, issues);
+  return issues->len == before;
 }
 
 // ---- Columns ----
@@ -114,8 +119,7 @@ static bool unit_scale(double *scale, const char *unit, SbChannel channel) {
   for (int i = 0; alias[i] != NULL; i += 2) {
     meant = strcmp(alias[i], unit) == 0 ? alias[i + 1] : meant;
   }
-  g_autofree char *one = g_strdup_printf("1 %s", meant);
-  return *unit != '\0' && sb_quantity_parse(scale, one, si, si, NULL) && *scale > 0;
+  return *unit != '\0' && sb_unit_scale(scale, meant, si, si, NULL);
 }
 
 // Columns and units that keys name, into the table.
@@ -126,15 +130,17 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
       continue;
     }
     g_auto(GStrv) words = g_strsplit(data->text[keys[k]], ",", -1);
-    if (g_strv_length(words) > sb_text_table_columns(table)) {
-      sb_data_add_issue(data, keys[k], NULL, issues, "names more than the %zu columns of the file",
-                        sb_text_table_columns(table));
-      return false;
+    if (g_strv_length(words) > table->columns) {
+      return sb_data_add_issue(data, keys[k], NULL, issues,
+                               "names more than the %zu columns of the file", table->columns);
     }
     for (size_t i = 0; words[i] != NULL; i++) {
       const char *word = g_strstrip(words[i]);
       if (keys[k] == SB_DATA_UNITS) {
-        sb_text_table_rename(table, i, NULL, strcmp(word, "-") != 0 ? word : "");
+        const char *unit = strcmp(word, "-") != 0 ? word : "";
+        const char *known = sb_text_table_unit(unit);
+        g_free(table->column[i].unit);
+        table->column[i].unit = g_strdup(known != NULL ? known : unit);
         continue;
       }
       int channel = 0;
@@ -142,9 +148,8 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
         channel++;
       }
       if (channel == SB_CHANNELS && strcmp(word, "-") != 0) {
-        sb_data_add_issue(data, keys[k], "time, displacement, force, -", issues,
-                          "\"%s\" is not a column that is read", word);
-        return false;
+        return sb_data_add_issue(data, keys[k], "time, displacement, force, -", issues,
+                                 "\"%s\" is not a column that is read", word);
       }
       if (channel < SB_CHANNELS) {
         m->column[channel].index = (int)i;
@@ -179,8 +184,8 @@ static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
 static size_t find_columns(size_t *column, const SbTextTable *table, SbChannel channel) {
   size_t count = 0;
   for (int fit = FIT_NAME_UNIT; fit < FIT_NONE && count == 0; fit++) {
-    for (size_t i = 0; i < sb_text_table_columns(table); i++) {
-      if (fit_of(sb_text_table_column(table, i), channel) == fit) {
+    for (size_t i = 0; i < table->columns; i++) {
+      if (fit_of(&table->column[i], channel) == fit) {
         column[count++] = i;
       }
     }
@@ -211,10 +216,8 @@ static bool are_specimens(const SbTextTable *table, const size_t *place, const s
     const size_t low = first ? place[i] : force[i], high = first ? force[i] : place[i];
     const bool next = i == 0 || low > (first ? force[i - 1] : place[i - 1]);
     if (low > high || !next ||
-        !same_name(sb_text_table_column(table, place[0])->name,
-                   sb_text_table_column(table, place[i])->name) ||
-        !same_name(sb_text_table_column(table, force[0])->name,
-                   sb_text_table_column(table, force[i])->name)) {
+        !same_name(table->column[place[0]].name, table->column[place[i]].name) ||
+        !same_name(table->column[force[0]].name, table->column[force[i]].name)) {
       return false;
     }
   }
@@ -238,13 +241,12 @@ static bool find_channels(SbMeasured *m, const SbTextTable *table, const SbData 
   }
   for (int c = SB_CHANNEL_DISPLACEMENT; c < SB_CHANNELS; c++) {
     if (count[c] > 1) {
-      sb_data_add_issue(data, SB_DATA_COLUMNS, NULL, issues,
-                        "column %zu \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
-                        "as in columns = displacement, force, -",
-                        column[c][0] + 1, sb_text_table_column(table, column[c][0])->name,
-                        column[c][1] + 1, sb_text_table_column(table, column[c][1])->name,
-                        channels[c].name);
-      return false;
+      return sb_data_add_issue(
+          data, SB_DATA_COLUMNS, NULL, issues,
+          "column %zu \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
+          "as in columns = displacement, force, -",
+          column[c][0] + 1, table->column[column[c][0]].name, column[c][1] + 1,
+          table->column[column[c][1]].name, channels[c].name);
     }
   }
   return true;
@@ -257,20 +259,18 @@ static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *
   const bool column = m->column[SB_CHANNEL_DISPLACEMENT].index >= 0;
   if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
                        !(speed > 0 && speed <= SPEED_MAX))) {
-    sb_data_add_issue(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
-                      "\"%s\" is not a speed of a machine", said);
-    return false;
+    return sb_data_add_issue(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
+                             "\"%s\" is not a speed of a machine", said);
   }
   if (said != NULL && (column || m->column[SB_CHANNEL_TIME].index < 0)) {
-    sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
-                      column ? "the displacement has a column of its own: one of them only"
-                             : "there is no column of the time that it would need");
-    return false;
+    return sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
+                             column ? "the displacement has a column of its own: one of them only"
+                                    : "there is no column of the time that it would need");
   }
   // Another column of numbers may be the displacement, by a name that is not known.
   size_t numbers = 0;
-  for (size_t i = 0; i < sb_text_table_columns(table); i++) {
-    numbers += sb_text_table_column(table, i)->numeric || sb_text_table_column(table, i)->clock;
+  for (size_t i = 0; i < table->columns; i++) {
+    numbers += table->column[i].numeric || table->column[i].clock;
   }
   if (!column && m->column[SB_CHANNEL_TIME].index >= 0 && m->column[SB_CHANNEL_FORCE].index >= 0 &&
       (said != NULL || (speed > 0 && (numbers == 2 || data->text[SB_DATA_COLUMNS] != NULL)))) {
@@ -280,18 +280,30 @@ static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *
   return true;
 }
 
+// Refuses a file without a column for `channel`, with the names of its columns.
+static bool miss_column(const SbMeasured *m, const SbTextTable *table, const SbData *data,
+                        int channel, GPtrArray *issues) {
+  const bool timed = channel == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0;
+  g_autoptr(GString) list = g_string_new(NULL);
+  for (size_t i = 0; i < table->columns && i < 8; i++) {
+    g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "", table->column[i].name);
+  }
+  return sb_data_add_issue(
+      data, SB_DATA_COLUMNS, NULL, issues,
+      "no column of the %zu (%s) is known as the %s: name them, as in "
+      "columns = time, displacement, force%s",
+      table->columns, list->str, channels[channel].name,
+      timed ? ", or specify the constant speed of the machine, as in speed = 20 mm/min" : "");
+}
+
 static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data, double speed,
                            double *scale, GPtrArray *issues) {
   for (int c = 0; c < SB_CHANNELS; c++) {
     m->column[c].index = -1;
   }
-  if (!take_said(m, table, data, issues)) {
-    return false;
-  }
-  if (data->text[SB_DATA_COLUMNS] == NULL && !find_channels(m, table, data, issues)) {
-    return false;
-  }
-  if (!settle_speed(m, table, data, speed, issues)) {
+  if (!take_said(m, table, data, issues) ||
+      (data->text[SB_DATA_COLUMNS] == NULL && !find_channels(m, table, data, issues)) ||
+      !settle_speed(m, table, data, speed, issues)) {
     return false;
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
@@ -300,33 +312,20 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
       continue;
     }
     if (at < 0) {
-      g_autoptr(GString) list = g_string_new(NULL);
-      for (size_t i = 0; i < sb_text_table_columns(table) && i < 8; i++) {
-        g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "",
-                               sb_text_table_column(table, i)->name);
-      }
-      sb_data_add_issue(
-          data, SB_DATA_COLUMNS, NULL, issues,
-          "no column of the %zu (%s) is known as the %s: name them, as in "
-          "columns = time, displacement, force%s",
-          sb_text_table_columns(table), list->str, channels[c].name,
-          c == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0
-              ? ", or specify the constant speed of the machine, as in speed = 20 mm/min"
-              : "");
-      return false;
+      return miss_column(m, table, data, c, issues);
     }
-    const SbTextTableColumn *column = sb_text_table_column(table, (size_t)at);
+    const SbTextTableColumn *column = &table->column[at];
     m->column[c].name = g_strdup(column->name);
     m->column[c].clock = column->clock;
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
     scale[c] = 1;
     if (!column->clock && !unit_scale(&scale[c], column->unit, (SbChannel)c)) {
       const bool none = *column->unit == '\0';
-      sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
-                        "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N", at + 1,
-                        column->name, channels[c].name, none ? "no unit" : "the unit \"",
-                        column->unit, none ? "" : "\", which is none of its kind");
-      return false;
+      return sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
+                               "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N",
+                               at + 1, column->name, channels[c].name,
+                               none ? "no unit" : "the unit \"", column->unit,
+                               none ? "" : "\", which is none of its kind");
     }
   }
   return true;
@@ -335,34 +334,31 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
 // ---- Rows ----
 
 // To SI in place, dropping rows with a gap; false with an issue on a value that is none of a valve.
-static bool settle_rows(SbMeasured *m, const SbData *data, double *value[SB_CHANNELS],
-                        const double *scale, GPtrArray *issues) {
+static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, GPtrArray *issues) {
   size_t kept = 0;
-  const size_t rows = m->count;
-  for (size_t i = 0; i < rows; i++) {
+  for (size_t i = 0; i < m->count; i++) {
     bool whole = true;
     for (int c = 0; c < SB_CHANNELS; c++) {
-      whole = whole && (value[c] == NULL || isfinite(value[c][i]));
+      whole = whole && (m->value[c] == NULL || isfinite(m->value[c][i]));
     }
     for (int c = 0; c < SB_CHANNELS && whole; c++) {
-      if (value[c] == NULL) {
+      double *value = m->value[c];
+      if (value == NULL) {
         continue;
       }
       // A division where the inverse is whole: 1.61 mm is 1.61/1000.
       const double inverse = 1 / scale[c];
-      const double si =
-          inverse > 1 && inverse == round(inverse) ? value[c][i] / inverse : value[c][i] * scale[c];
-      if (!(fabs(si) <= channels[c].most)) {
-        sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
-                          "row %zu has a %s of %g %s, more than %g %s", i + 1, channels[c].name, si,
-                          channels[c].si, channels[c].most, channels[c].si);
-        return false;
+      const bool divide = inverse > 1 && inverse == round(inverse);
+      value[kept] = divide ? value[i] / inverse : value[i] * scale[c];
+      if (!(fabs(value[kept]) <= channels[c].most)) {
+        return sb_data_add_issue(
+            data, SB_DATA_UNITS, NULL, issues, "row %zu has a %s of %g %s, more than %g %s", i + 1,
+            channels[c].name, value[kept], channels[c].si, channels[c].most, channels[c].si);
       }
-      value[c][kept] = si;
     }
     kept += whole;
   }
-  m->dropped = rows - kept;
+  m->dropped = m->count - kept;
   m->count = kept;
   return true;
 }
@@ -394,10 +390,9 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   for (size_t i = 0; i < m->count; i++) {
     mean += m->force[i] / (double)m->count;
     if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
-      sb_data_add_issue(data, SB_DATA_FILE, NULL, issues,
-                        "its time decreases at row %zu, and nothing else gives the displacement",
-                        i + 1);
-      return false;
+      return sb_data_add_issue(
+          data, SB_DATA_FILE, NULL, issues,
+          "its time decreases at row %zu, and nothing else gives the displacement", i + 1);
     }
   }
   const double sign = mean < 0 ? -1 : 1;
@@ -424,22 +419,20 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     count++;
   }
   if (turn < LEAST || count < turn + LEAST) {
-    sb_data_add_issue(
+    return sb_data_add_issue(
         data, SB_DATA_FILE, NULL, issues,
         "its maximum force, where a machine of constant speed reverses, is at row %zu "
         "of %zu: that is not a stroke and return",
         turn + 1, m->count);
-    return false;
   }
   for (size_t i = 0; i < count; i++) {
     const double time = m->time[i] <= turned ? m->time[i] - m->time[0] : end - m->time[i];
     m->displacement[i] = m->speed * time;
   }
   if (!(m->displacement[turn] <= channels[SB_CHANNEL_DISPLACEMENT].most)) {
-    sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
-                      "the machine would travel %g m to the maximum force, more than %g m",
-                      m->displacement[turn], channels[SB_CHANNEL_DISPLACEMENT].most);
-    return false;
+    return sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
+                             "the machine would travel %g m to the maximum force, more than %g m",
+                             m->displacement[turn], channels[SB_CHANNEL_DISPLACEMENT].most);
   }
   m->behind = m->count - count;
   m->count = count;
@@ -455,13 +448,13 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
   g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
   double scale[SB_CHANNELS] = {0};
   m->name = g_path_get_basename(data->path);
-  m->dialect = *sb_text_table_dialect(table);
-  m->header_lines = sb_text_table_header_lines(table);
+  m->dialect = table->dialect;
+  m->header_lines = table->header_lines;
   if (!settle_columns(m, table, data, speed, scale, issues)) {
     return NULL;
   }
   size_t column[SB_CHANNELS], count = 0;
-  double *read[SB_CHANNELS] = {NULL}, *value[SB_CHANNELS] = {NULL};
+  double *read[SB_CHANNELS];
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].index >= 0) {
       column[count++] = (size_t)m->column[c].index;
@@ -472,83 +465,60 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
     return NULL;
   }
   for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
-    value[c] = m->column[c].index >= 0 ? read[k++] : NULL;
+    m->value[c] = m->column[c].index >= 0 ? read[k++] : NULL;
   }
-  m->time = value[SB_CHANNEL_TIME];
-  m->displacement = value[SB_CHANNEL_DISPLACEMENT];
-  m->force = value[SB_CHANNEL_FORCE];
   m->count = rows.rows;
   m->skipped = rows.skipped;
-  const size_t damaged = rows.damaged;
   m->skipped_line = rows.left_line;
   m->skipped_text = rows.left_text;
-  if (m->skipped > m->count) {
-    sb_issues_add(issues, data->path, m->skipped_line, NULL, NULL,
-                  "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
-                  m->skipped, m->count, m->skipped_text);
-    return NULL;
+  bool good = m->skipped <= m->count ||
+              sb_issues_add(issues, data->path, m->skipped_line, NULL, NULL,
+                            "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
+                            m->skipped, m->count, m->skipped_text);
+  good = good && settle_rows(m, data, scale, issues);
+  m->dropped += rows.damaged;
+  if (good && m->count < 8) {
+    good = sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows",
+                         "has too few rows for a loop");
   }
-  if (!settle_rows(m, data, value, scale, issues)) {
-    return NULL;
-  }
-  m->dropped += damaged;
-  if (m->count < 8) {
-    sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
-    return NULL;
-  }
-  if (m->speed > 0 && !displace(m, data, issues)) {
-    return NULL;
-  }
-  return sb_measured_find(m, data, issues) ? g_steal_pointer(&m) : NULL;
+  good = good && (m->speed == 0 || displace(m, data, issues)) && sb_measured_find(m, data, issues);
+  return good ? g_steal_pointer(&m) : NULL;
 }
 
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
   SbTextTableDialect wish;
-  g_autoptr(GPtrArray) own = sb_issues_new();
-  SbMeasured *measured = NULL;
-  if (read_wish(&wish, data, own)) {
-    g_autoptr(SbTextTable) table = sb_text_table_open(data->path, &wish, own);
-    measured = table != NULL ? read_table(table, data, speed, own) : NULL;
-  }
-  for (guint i = 0; i < own->len; i++) {
-    const SbIssue *issue = own->pdata[i];
-    sb_issues_add(issues, issue->file, issue->line, issue->key, issue->allowed, "%s", issue->text);
-  }
-  return measured;
+  const bool good = read_wish(&wish, data, issues);
+  g_autoptr(SbTextTable) table = good ? sb_text_table_open(data->path, &wish, issues) : NULL;
+  return table != NULL ? read_table(table, data, speed, issues) : NULL;
 }
 
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues) {
   SbTextTableDialect wish;
-  if (!read_wish(&wish, data, issues)) {
-    return NULL;
-  }
-  g_autoptr(SbTextTable) table = sb_text_table_parse(bytes, length, &wish, data->path, issues);
+  const bool good = read_wish(&wish, data, issues);
+  g_autoptr(SbTextTable) table =
+      good ? sb_text_table_parse(bytes, length, &wish, data->path, issues) : NULL;
   return table != NULL ? read_table(table, data, speed, issues) : NULL;
 }
 
 // ---- What was recognised ----
 
-static const char *separator_name(char separator) {
-  return separator == ','    ? "comma"
-         : separator == ';'  ? "semicolon"
-         : separator == '\t' ? "tab"
-                             : "blank";
+static const char *separator_name(const SbMeasured *m) {
+  return separator_names[strchr(separators, m->dialect.separator) - separators];
+}
+
+static const char *decimal_name(const SbMeasured *m) {
+  return decimal_names[strchr(decimals, m->dialect.decimal) - decimals];
 }
 
 static const char *direction_name(const SbMeasured *m) {
-  return m->turned_force && m->turned_displacement ? "both"
-         : m->turned_force                         ? "force"
-         : m->turned_displacement                  ? "displacement"
-                                                   : "as-is";
+  return sb_measured_directions[m->turned_force + 2 * m->turned_displacement];
 }
 
 char *sb_measured_keys(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
-  g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n",
-                         separator_name(m->dialect.separator),
-                         m->dialect.decimal == ',' ? "comma" : "point",
-                         sb_text_table_encoding_name(m->dialect.encoding));
+  g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m),
+                         decimal_name(m), sb_text_table_encodings[m->dialect.encoding]);
   int last = 0;
   for (int c = 0; c < SB_CHANNELS; c++) {
     last = MAX(last, m->column[c].index);
@@ -586,10 +556,9 @@ char *sb_measured_keys(const SbMeasured *m) {
 char *sb_measured_text(const SbMeasured *m) {
   static const char *const hows[] = {"not in the data, used unchanged", "found", "as specified"};
   GString *out = g_string_new(NULL);
-  g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n",
-                         separator_name(m->dialect.separator),
-                         m->dialect.decimal == ',' ? "comma" : "point",
-                         sb_text_table_encoding_name(m->dialect.encoding), m->header_lines);
+  g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n", separator_name(m),
+                         decimal_name(m), sb_text_table_encodings[m->dialect.encoding],
+                         m->header_lines);
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].index >= 0) {
       g_string_append_printf(out, "%s: column %d \"%s\" in %s (%s)\n", channels[c].name,
@@ -628,7 +597,7 @@ char *sb_measured_text(const SbMeasured *m) {
     g_string_append_printf(out, "number %zu used\n", m->first + 1);
   }
   g_string_append_printf(out, "reversed: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
-                         strcmp(direction_name(m), "as-is") == 0 ? "nothing" : direction_name(m),
+                         m->turned_force || m->turned_displacement ? direction_name(m) : "nothing",
                          hows[m->direction], sb_number_round(digits[0], m->at_rest * 1e3, 6),
                          hows[m->zero], sb_number_round(digits[1], m->no_load, 5),
                          hows[m->force_zero]);

@@ -78,14 +78,19 @@ typedef struct {
   } column[SB_CHANNELS];
   size_t specimens; // pairs of displacement and force side by side, the first in use; 0: only one
   // Rows, in the order of the file. Displacement and force are corrected as above.
-  size_t count;         // rows in use
-  size_t dropped;       // rows left out for an empty or unreadable cell
-  double *time;         // [count] [s]; NULL: no such column
-  double *displacement; // [count], of the stem from its rest position, positive inwards [m]
-  double *force;        // [count], on the stem, without load 0, compression positive [N]
-  double speed;         // of the crosshead, if it gives the displacement [m/s]; 0: a column does
-  SbHow speed_how;      // SB_HOW_ASSUMED: the speed of the scene's drive
-  size_t behind;        // if `speed` > 0: rows after the first cycle; `count` does not include them
+  size_t count;   // rows in use
+  size_t dropped; // rows left out for an empty or unreadable cell
+  union {
+    struct {
+      double *time;         // [count] [s]; NULL: no such column
+      double *displacement; // [count], of the stem from its rest position, positive inwards [m]
+      double *force;        // [count], on the stem, without load 0, compression positive [N]
+    };
+    double *value[SB_CHANNELS]; // the same arrays by SbChannel
+  };
+  double speed;    // of the crosshead, if it gives the displacement [m/s]; 0: a column does
+  SbHow speed_how; // SB_HOW_ASSUMED: the speed of the scene's drive
+  size_t behind;   // if `speed` > 0: rows after the first cycle; `count` does not include them
   // Corrections.
   SbHow direction, zero, force_zero, compliance; // origin of the values below
   bool turned_displacement, turned_force;        // the column's sign was reversed

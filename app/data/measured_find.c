@@ -10,22 +10,19 @@
 // explains less than half of the squares a straight line leaves is none.
 #include "app/data/measured_private.h"
 
+#include "engine/numeric/dense.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
 enum { LOOKED = 20000, BINS = 160 };
 
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static double median(double *value, size_t count) {
   if (count == 0) {
     return NAN;
   }
-  qsort(value, count, sizeof *value, compare_doubles);
+  qsort(value, count, sizeof *value, sb_number_compare);
   return 0.5 * (value[(count - 1) / 2] + value[count / 2]);
 }
 
@@ -115,12 +112,9 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
   g_autoptr(GArray) turns = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
-    m->turned_force = strcmp(said, "force") == 0 || strcmp(said, "both") == 0;
-    m->turned_displacement = strcmp(said, "displacement") == 0 || strcmp(said, "both") == 0;
-    if (!m->turned_force && !m->turned_displacement && strcmp(said, "as-is") != 0) {
-      sb_data_add_issue(data, SB_DATA_DIRECTION, "as-is, force, displacement, both", issues,
-                        "\"%s\" is not one of these", said);
-    }
+    const size_t turned = sb_measured_word(data, SB_DATA_DIRECTION, sb_measured_directions, issues);
+    m->turned_force = (turned & 1) != 0;
+    m->turned_displacement = (turned & 2) != 0;
   } else {
     double low, high;
     range_of(&low, &high, m->force, m->count);
@@ -157,8 +151,8 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     }
   }
   if (m->cycle->len == 0) {
-    sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "no stroke into the valve was found in it");
-    return false;
+    return sb_data_add_issue(data, SB_DATA_FILE, NULL, issues,
+                             "no stroke into the valve was found in it");
   }
   m->last = m->cycle->len - 1;
   const char *said = data->text[SB_DATA_CYCLE];
@@ -167,8 +161,8 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     if (!sb_number_parse(&number, said) || number != floor(number) || number < 1 ||
         number > m->cycle->len) {
       g_autofree char *allowed = g_strdup_printf("all, or 1 to %u", m->cycle->len);
-      sb_data_add_issue(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is not a cycle of it", said);
-      return false;
+      return sb_data_add_issue(data, SB_DATA_CYCLE, allowed, issues, "\"%s\" is not a cycle of it",
+                               said);
     }
     m->first = m->last = (size_t)number - 1;
   }
@@ -257,9 +251,8 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   if (zero != NULL) {
     m->zero = m->force_zero = SB_HOW_SAID;
     if (strcmp(zero, "as-is") != 0 && !read_pair(&m->at_rest, &m->no_load, zero)) {
-      sb_data_add_issue(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
-                        "\"%s\" is not such a pair", zero);
-      return false;
+      return sb_data_add_issue(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
+                               "\"%s\" is not such a pair", zero);
     }
   } else if (rise.level > 0) {
     find_no_load(m, &rise);
@@ -273,9 +266,8 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     m->compliance = SB_HOW_SAID;
     if (strcmp(compliance, "none") != 0 &&
         (!sb_quantity_parse(&m->slope, compliance, "m/N", "mm/N", NULL) || m->slope < 0)) {
-      sb_data_add_issue(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
-                        "\"%s\" is not a compliance", compliance);
-      return false;
+      return sb_data_add_issue(data, SB_DATA_COMPLIANCE, "none, or as in 0.01 mm/N", issues,
+                               "\"%s\" is not a compliance", compliance);
     }
   } else if (rise.level > m->no_load) {
     find_compliance(m, &rise);
@@ -369,40 +361,26 @@ static Means means_of(const SbMeasured *m, size_t begin, size_t end, double low,
   return means;
 }
 
-// Squares that y = a + b ramp + c x leaves, and the coefficients; b = 0 where p = q.
+// Squares that y = a + b ramp + c x leaves, and the coefficients a, c, b; b = 0 where p = q.
 static double ramp_squares(double coefficient[3], const Means *of, double p, double q) {
-  double a[3][4] = {{0}};
+  const size_t n = q > p ? 3 : 2;
+  double a[9] = {0}, right[3] = {0}, square = 0;
   for (size_t i = 0; i < of->count; i++) {
     const double ramp = q > p ? fmin(fmax((of->x[i] - p) / (q - p), 0), 1) : 0;
     const double term[3] = {1, of->x[i], ramp};
-    for (int r = 0; r < 3; r++) {
-      for (int c = 0; c < 3; c++) {
-        a[r][c] += of->weight[i] * term[r] * term[c];
+    for (size_t r = 0; r < n; r++) {
+      for (size_t c = 0; c < n; c++) {
+        a[r + n * c] += of->weight[i] * term[r] * term[c];
       }
-      a[r][3] += of->weight[i] * term[r] * of->y[i];
+      right[r] += of->weight[i] * term[r] * of->y[i];
     }
-  }
-  double square = 0;
-  for (size_t i = 0; i < of->count; i++) {
     square += of->weight[i] * of->y[i] * of->y[i];
   }
-  const double right[3] = {a[0][3], a[1][3], a[2][3]};
-  const int n = q > p ? 3 : 2;
-  for (int k = 0; k < n; k++) {
-    for (int r = k + 1; r < n; r++) {
-      const double f = a[r][k] / a[k][k];
-      for (int c = k; c < 4; c++) {
-        a[r][c] -= f * a[k][c];
-      }
-    }
+  memcpy(coefficient, right, sizeof right);
+  if (!sb_eliminate(a, coefficient, n)) {
+    return INFINITY;
   }
-  coefficient[2] = 0;
-  for (int k = n - 1; k >= 0; k--) {
-    double sum = a[k][3];
-    for (int c = k + 1; c < n; c++) {
-      sum -= a[k][c] * coefficient[c];
-    }
-    coefficient[k] = sum / a[k][k];
+  for (size_t k = 0; k < n; k++) {
     square -= coefficient[k] * right[k];
   }
   return isfinite(square) ? fmax(square, 0) : INFINITY;
@@ -447,11 +425,10 @@ static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double strok
     } else if (find_ramp(&p, &q, coefficient, &means) &&
                (way == 0 ? coefficient[2] < 0 : coefficient[2] > 0)) {
       const double at = way == 0 ? p : q;
-      stage->found = true;
-      stage->displacement = low + at * (high - low);
-      stage->force = coefficient[0] + coefficient[1] * at + (way == 1 ? coefficient[2] : 0);
-      stage->deviation = m->noise / sqrt(fmax(means.count / 4.0, 1));
-      stage->reason = NULL;
+      *stage =
+          (SbMeasuredStage){true, low + at * (high - low),
+                            coefficient[0] + coefficient[1] * at + (way == 1 ? coefficient[2] : 0),
+                            m->noise / sqrt(fmax(means.count / 4.0, 1)), NULL};
     }
   }
 }
@@ -481,11 +458,8 @@ static void find_first_slip(SbMeasured *m, const SbMeasuredCycle *cycle, double 
   b->reason = "the stem moves from the first row on";
   if (most > cycle->begin + 2 && m->force[cycle->begin] < 0.5 * m->force[most]) {
     const double step = unseen_rise(m, most);
-    b->found = true;
-    b->displacement = m->displacement[most];
-    b->force = m->force[most] + 0.5 * step;
-    b->deviation = hypot(isfinite(m->noise) ? m->noise : 0, step / sqrt(12));
-    b->reason = NULL;
+    *b = (SbMeasuredStage){true, m->displacement[most], m->force[most] + 0.5 * step,
+                           hypot(isfinite(m->noise) ? m->noise : 0, step / sqrt(12)), NULL};
   }
 }
 
@@ -502,28 +476,20 @@ static void find_stop(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke
     last--;
   }
   if (isfinite(inwards) && last < cycle->turn) {
-    d->found = true;
-    d->displacement = m->displacement[last];
-    d->force = inwards;
-    d->deviation = noise;
-    d->reason = NULL;
+    *d = (SbMeasuredStage){true, m->displacement[last], inwards, noise, NULL};
   }
   size_t next = cycle->turn;
   while (next < cycle->end && m->force[next] > back + gap) {
     next++;
   }
   if (isfinite(back) && next > cycle->turn && next < cycle->end) {
-    e->found = true;
-    e->displacement = m->displacement[next];
+    const double place = m->displacement[next];
     // A peak of static friction before the stem moves, if there is one.
     double least = INFINITY;
-    for (size_t i = next; i < cycle->end && m->displacement[i] > e->displacement - 0.01 * stroke;
-         i++) {
+    for (size_t i = next; i < cycle->end && m->displacement[i] > place - 0.01 * stroke; i++) {
       least = fmin(least, m->force[i]);
     }
-    e->force = least < back - gap ? least : back;
-    e->deviation = noise;
-    e->reason = NULL;
+    *e = (SbMeasuredStage){true, place, least < back - gap ? least : back, noise, NULL};
   }
 }
 
@@ -542,8 +508,7 @@ bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   const guint before = issues->len;
   range_of(&low, &high, m->displacement, m->count);
   if (!(high > low)) {
-    sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
-    return false;
+    return sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
   }
   find_direction(m, data, issues);
   if (issues->len > before || !find_cycles(m, data, issues) || !find_zero(m, data, issues)) {

@@ -12,3 +12,12 @@ bool sb_measured_find(SbMeasured *measured, const SbData *data, GPtrArray *issue
 
 // Returns the rows of cycle `index`, from 0, below measured->cycle->len; borrowed.
 const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t index);
+
+// Texts of the key `direction`: bit 0 of the index is set if the force is reversed, bit 1 if the
+// displacement is. Ended by NULL.
+extern const char *const sb_measured_directions[];
+
+// Returns the index in `names` (ended by NULL) of a key's text; 0 for an absent key. Another text
+// is an issue.
+size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
+                        GPtrArray *issues);

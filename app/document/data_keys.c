@@ -41,7 +41,7 @@ SbData *sb_data_of_file(const char *path) {
   return data;
 }
 
-void sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
+bool sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
                        const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -49,8 +49,8 @@ void sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, G
   va_end(arguments);
   g_autofree char *where =
       g_strdup_printf("data%s%s.%s", *data->name != '\0' ? " " : "", data->name, names[key]);
-  sb_issues_add(issues, data->shown != NULL ? data->shown : data->path, data->line, where, allowed,
-                "%s", text);
+  return sb_issues_add(issues, data->shown != NULL ? data->shown : data->path, data->line, where,
+                       allowed, "%s", text);
 }
 
 static SbData *find(const GPtrArray *list, const char *name) {

@@ -79,6 +79,6 @@ bool sb_data_same(const SbData *a, const SbData *b);
 void sb_data_set_keys(SbData *data, const char *text);
 
 // Appends an issue on a key of the group, "[data lot-2] columns: TEXT". `allowed` is the allowed
-// range or NULL.
-void sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
+// range or NULL. Always returns false, as sb_issues_add().
+bool sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
                        const char *format, ...) G_GNUC_PRINTF(5, 6);

@@ -10,120 +10,110 @@
 
 enum { COLUMNS = 2 };
 
+// What a column may hold: its name, units and range [si], and the range for the user.
 typedef struct {
-  const char *name;
-  GPtrArray *issues;
-  bool speed;            // in the second column, in place of a drive's quantity
-  bool temperature;      // likewise
-  double scale[COLUMNS]; // to SI
-  double offset;         // of a temperature, added
-  SbModelSeries *out;
-} Reader;
+  SbSeriesKind kind;
+  size_t column;
+  const char *name, *si, *shown;
+  double low, high;
+  const char *allowed;
+} Quantity;
 
-// Ranges of the columns [SI].
-static const double time_max = 1e6, displacement_max = 0.2, force_max = 1e5, speed_max = 100;
-static const double shelf_max = 3.2e9, cold = 173.15, hot = 423.15; // of a shelf's temperatures
+static const Quantity quantities[] = {
+    {SB_SERIES_DRIVE, 0, "time", "s", "s", -1e6, 1e6, "0 to 1e6 s"},
+    {SB_SERIES_DRIVE, 1, "displacement", "m", "m", -0.2, 0.2, "at most 200 mm in either direction"},
+    {SB_SERIES_DRIVE, 1, "force", "N", "N", -1e5, 1e5, "at most 1e5 N in either direction"},
+    {SB_SERIES_SPEED, 0, "time", "s", "s", -1e6, 1e6, "0 to 1e6 s"},
+    {SB_SERIES_SPEED, 1, "speed", "m/s", "m/s", -100, 100, "at most 100 m/s in either direction"},
+    {SB_SERIES_TEMPERATURE, 0, "time", "s", "s", -3.2e9, 3.2e9, "0 to 3.2e9 s"},
+    {SB_SERIES_TEMPERATURE, 1, "temperature", "K", "°C", 173.15, 423.15, "-100 to 150 degC"},
+};
 
-// "displacement [mm]" -> quantity, and the unit's size in SI.
-static bool read_heading(Reader *r, const SbTextTable *table, size_t column) {
-  const SbTextTableColumn *heading = sb_text_table_column(table, column);
-  const char *si = NULL;
-  r->scale[column] = 1;
-  if (column == 0 && strcmp(heading->name, "time") == 0) {
-    si = "s";
-  } else if (column == 1 && r->temperature) {
-    si = strcmp(heading->name, "temperature") == 0 ? "K" : NULL;
-  } else if (column == 1 && r->speed) {
-    si = strcmp(heading->name, "speed") == 0 ? "m/s" : NULL;
-  } else if (column == 1 && strcmp(heading->name, "displacement") == 0) {
-    si = "m";
-    r->out->quantity = SB_DRIVE_OF_POSITION;
-  } else if (column == 1 && strcmp(heading->name, "force") == 0) {
-    si = "N";
-    r->out->quantity = SB_DRIVE_OF_FORCE;
-  }
-  g_autofree char *one = g_strdup_printf("1 %s", heading->unit);
-  const char *allowed = column == 0      ? "time [s]"
-                        : r->temperature ? "temperature [degC] or [K]"
-                        : r->speed       ? "speed [m/s]"
-                                         : "displacement [mm] or force [N]";
-  const int line = (int)sb_text_table_header_lines(table);
-  if (*heading->name == '\0') {
-    sb_issues_add(r->issues, r->name, line, NULL, allowed, "column %zu has no heading", column + 1);
-  } else if (si == NULL) {
-    sb_issues_add(r->issues, r->name, line, NULL, allowed,
-                  "column %zu: \"%s\" is an unknown quantity", column + 1, heading->name);
-  } else if (r->temperature && column == 1) {
-    // A point of a scale: what 0 and 1 of its unit are.
-    g_autofree char *none = g_strdup_printf("0 %s", heading->unit);
-    double unit = 0;
-    if (!sb_quantity_parse(&r->offset, none, "K", "°C", NULL) ||
-        !sb_quantity_parse(&unit, one, "K", "°C", NULL)) {
-      sb_issues_add(r->issues, r->name, line, NULL, "K, degC",
-                    "column %zu: \"%s\" is not a unit of %s", column + 1, heading->unit,
-                    heading->name);
-      return false;
+// Headings of the second column, for the user.
+static const char *const headings[] = {[SB_SERIES_DRIVE] = "displacement [mm] or force [N]",
+                                       [SB_SERIES_SPEED] = "speed [m/s]",
+                                       [SB_SERIES_TEMPERATURE] = "temperature [degC] or [K]"};
+
+// A column of a file.
+typedef struct {
+  const Quantity *quantity;
+  double scale, offset; // value [si] = scale * number + offset
+} Column;
+
+// "displacement [mm]" -> quantity, and what 0 and 1 of the unit are in SI.
+static bool read_heading(Column *out, SbSeriesKind kind, const SbTextTable *table, size_t column,
+                         const char *name, GPtrArray *issues) {
+  const SbTextTableColumn *heading = &table->column[column];
+  const char *allowed = column == 0 ? "time [s]" : headings[kind];
+  const int line = (int)table->header_lines;
+  *out = (Column){.scale = 1};
+  for (size_t i = 0; i < G_N_ELEMENTS(quantities); i++) {
+    const Quantity *q = &quantities[i];
+    if (q->kind == kind && q->column == column && strcmp(q->name, heading->name) == 0) {
+      out->quantity = q;
     }
-    r->scale[column] = unit - r->offset;
-  } else if (!(heading->clock && column == 0) &&
-             !(sb_quantity_parse(&r->scale[column], one, si, si, NULL) && r->scale[column] > 0)) {
-    sb_issues_add(r->issues, r->name, line, NULL, si, "column %zu: \"%s\" is not a unit of %s",
-                  column + 1, heading->unit, heading->name);
-    si = NULL;
   }
-  return si != NULL;
+  const Quantity *q = out->quantity;
+  if (*heading->name == '\0') {
+    return sb_issues_add(issues, name, line, NULL, allowed, "column %zu has no heading",
+                         column + 1);
+  }
+  if (q == NULL) {
+    return sb_issues_add(issues, name, line, NULL, allowed,
+                         "column %zu: \"%s\" is an unknown quantity", column + 1, heading->name);
+  }
+  g_autofree char *none = g_strdup_printf("0 %s", heading->unit);
+  g_autofree char *one = g_strdup_printf("1 %s", heading->unit);
+  double unit = 0;
+  if (heading->clock && column == 0) {
+    return true;
+  }
+  const bool good = sb_quantity_parse(&out->offset, none, q->si, q->shown, NULL) &&
+                    sb_quantity_parse(&unit, one, q->si, q->shown, NULL) && unit > out->offset;
+  out->scale = unit - out->offset;
+  return good ||
+         sb_issues_add(issues, name, line, NULL, sb_quantity_is_point(q->shown) ? "K, degC" : q->si,
+                       "column %zu: \"%s\" is not a unit of %s", column + 1, heading->unit,
+                       heading->name);
 }
 
-static bool take_row(Reader *r, size_t row, double *const *value) {
-  const bool force = !r->speed && r->out->quantity == SB_DRIVE_OF_FORCE;
-  const double limit[COLUMNS] = {r->temperature ? shelf_max : time_max, r->temperature ? hot
-                                                                        : r->speed     ? speed_max
-                                                                        : force        ? force_max
-                                                                                : displacement_max};
-  const char *const allowed[COLUMNS] = {r->temperature ? "0 to 3.2e9 s" : "0 to 1e6 s",
-                                        r->temperature ? "-100 to 150 degC"
-                                        : r->speed     ? "at most 100 m/s in either direction"
-                                        : force        ? "at most 1e5 N in either direction"
-                                                       : "at most 200 mm in either direction"};
-  SbModelSeries *out = r->out;
+static bool take_row(SbModelSeries *out, const Column *columns, size_t row, double *const *value,
+                     const char *name, GPtrArray *issues) {
   double si[COLUMNS];
   for (int i = 0; i < COLUMNS; i++) {
-    si[i] = value[i][row] * r->scale[i] + (i == 1 ? r->offset : 0);
-    if (!(fabs(si[i]) <= limit[i]) || (i == 1 && r->temperature && si[i] < cold)) {
-      sb_issues_add(r->issues, r->name, 0, NULL, allowed[i], "row %zu: column %d is out of range",
-                    row + 1, i + 1);
-      return false;
+    const Quantity *q = columns[i].quantity;
+    si[i] = value[i][row] * columns[i].scale + columns[i].offset;
+    if (!(si[i] >= q->low && si[i] <= q->high)) {
+      return sb_issues_add(issues, name, 0, NULL, q->allowed, "row %zu: column %d is out of range",
+                           row + 1, i + 1);
     }
   }
   if (out->count == SB_MODEL_SERIES_MAX) {
-    sb_issues_add(r->issues, r->name, 0, NULL, NULL, "has more than the %d rows of a series",
-                  SB_MODEL_SERIES_MAX);
-    return false;
+    return sb_issues_add(issues, name, 0, NULL, NULL, "has more than the %d rows of a series",
+                         SB_MODEL_SERIES_MAX);
   }
   if (out->count > 0 && !(si[0] > out->time[out->count - 1])) {
-    sb_issues_add(r->issues, r->name, 0, NULL, NULL,
-                  "row %zu: its time does not come after the row before", row + 1);
-    return false;
+    return sb_issues_add(issues, name, 0, NULL, NULL,
+                         "row %zu: its time does not come after the row before", row + 1);
   }
   out->time[out->count] = si[0];
   out->value[out->count++] = si[1];
   return true;
 }
 
-static bool read_rows(Reader *r, const SbTextTable *table) {
+static bool read_rows(SbModelSeries *out, const Column *columns, const SbTextTable *table,
+                      const char *name, GPtrArray *issues) {
   static const size_t column[COLUMNS] = {0, 1};
   double *value[COLUMNS];
   SbTextTableRows rows;
-  if (!sb_text_table_read(&rows, value, table, column, COLUMNS, r->issues)) {
+  if (!sb_text_table_read(&rows, value, table, column, COLUMNS, issues)) {
     return false;
   }
-  bool good = rows.left_text == NULL;
-  if (!good) {
-    sb_issues_add(r->issues, r->name, rows.left_line, NULL, "two numbers",
-                  "\"%s\" is not a row of the series", rows.left_text);
-  }
+  bool good =
+      rows.left_text == NULL || sb_issues_add(issues, name, rows.left_line, NULL, "two numbers",
+                                              "\"%s\" is not a row of the series", rows.left_text);
   for (size_t i = 0; i < rows.rows && good; i++) {
-    good = take_row(r, i, value);
+    good = take_row(out, columns, i, value, name, issues);
   }
   for (int i = 0; i < COLUMNS; i++) {
     g_free(value[i]);
@@ -132,51 +122,40 @@ static bool read_rows(Reader *r, const SbTextTable *table) {
   return good;
 }
 
-static bool parse(SbModelSeries *out, bool speed, bool temperature, const char *text, size_t length,
-                  const char *name, GPtrArray *issues) {
+static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable *table,
+                       const char *name, GPtrArray *issues) {
+  Column columns[COLUMNS];
+  if (table->columns != COLUMNS) {
+    return sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns", table->columns);
+  }
+  for (size_t i = 0; i < COLUMNS; i++) {
+    if (!read_heading(&columns[i], kind, table, i, name, issues)) {
+      return false;
+    }
+  }
+  if (kind == SB_SERIES_DRIVE) {
+    const bool force = strcmp(columns[1].quantity->name, "force") == 0;
+    out->quantity = force ? SB_DRIVE_OF_FORCE : SB_DRIVE_OF_POSITION;
+  }
+  return read_rows(out, columns, table, name, issues);
+}
+
+bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text, size_t length,
+                     const char *name, GPtrArray *issues) {
   out->count = 0;
-  Reader r = {
-      .name = name, .issues = issues, .speed = speed, .temperature = temperature, .out = out};
   g_autoptr(SbTextTable) table = sb_text_table_parse(text, length, NULL, name, issues);
-  bool good = table != NULL;
-  if (good && sb_text_table_columns(table) != COLUMNS) {
-    sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns",
-                  sb_text_table_columns(table));
-    good = false;
-  }
-  for (size_t i = 0; i < COLUMNS && good; i++) {
-    good = read_heading(&r, table, i);
-  }
-  good = good && read_rows(&r, table);
-  double start = good ? out->time[0] : 0;
+  const bool good = table != NULL && read_table(out, kind, table, name, issues);
+  const double start = good ? out->time[0] : 0;
+  out->count = good ? out->count : 0;
   for (size_t i = 0; i < out->count; i++) {
     out->time[i] -= start;
   }
-  out->count = good ? out->count : 0;
   return good;
 }
 
-bool sb_series_parse(SbModelSeries *out, const char *text, size_t length, const char *name,
-                     GPtrArray *issues) {
-  return parse(out, false, false, text, length, name, issues);
-}
-
-static bool read_file(SbModelSeries *out, bool speed, bool temperature, const char *path,
-                      GPtrArray *issues) {
+bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *path, GPtrArray *issues) {
   size_t length = 0;
   out->count = 0;
   g_autofree char *text = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
-  return text != NULL && parse(out, speed, temperature, text, length, path, issues);
-}
-
-bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues) {
-  return read_file(out, false, false, path, issues);
-}
-
-bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues) {
-  return read_file(out, true, false, path, issues);
-}
-
-bool sb_series_read_temperature(SbModelSeries *out, const char *path, GPtrArray *issues) {
-  return read_file(out, false, true, path, issues);
+  return text != NULL && sb_series_parse(out, kind, text, length, path, issues);
 }

@@ -16,17 +16,17 @@
 // Largest size of a file [bytes].
 enum { SB_SERIES_BYTES_MAX = 1 << 20 };
 
-// Reads the file `path` with "displacement [mm]" or "force [N]" in the second column; out->quantity
-// states which. Units of the columns are converted to SI.
-bool sb_series_read(SbModelSeries *out, const char *path, GPtrArray *issues);
+// What the second column holds.
+typedef enum {
+  SB_SERIES_DRIVE,      // "displacement [mm]" or "force [N]"; SbModelSeries.quantity states which
+  SB_SERIES_SPEED,      // "speed [m/s]"; SbModelSeries.quantity is not changed
+  SB_SERIES_TEMPERATURE // "temperature [degC]", times up to 3.2e9 s; quantity is not changed
+} SbSeriesKind;
 
-// Reads the file `path` with "speed [m/s]" in the second column. out->quantity is not changed.
-SB_CHECKED bool sb_series_read_speed(SbModelSeries *out, const char *path, GPtrArray *issues);
-
-// Reads the file `path` with "temperature [degC]" in the second column, over times up to 3.2e9 s;
-// the values are in K. out->quantity is not changed.
-bool sb_series_read_temperature(SbModelSeries *out, const char *path, GPtrArray *issues);
+// Reads the file `path`. Units of the columns are converted to SI, temperatures to K.
+SB_CHECKED bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *path,
+                               GPtrArray *issues);
 
 // As sb_series_read(), from the `length` bytes of a file; `name` is used as its path in messages.
-SB_CHECKED bool sb_series_parse(SbModelSeries *out, const char *text, size_t length,
-                                const char *name, GPtrArray *issues);
+SB_CHECKED bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text,
+                                size_t length, const char *name, GPtrArray *issues);

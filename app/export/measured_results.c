@@ -13,7 +13,7 @@ static const char *how_name(SbHow how) {
 static void put_recognised(SbJson *json, const SbMeasured *m) {
   const char separator[] = {m->dialect.separator, '\0'}, decimal[] = {m->dialect.decimal, '\0'};
   sb_json_object(json, "recognised");
-  sb_json_string(json, "encoding", sb_text_table_encoding_name(m->dialect.encoding));
+  sb_json_string(json, "encoding", sb_text_table_encodings[m->dialect.encoding]);
   sb_json_string(json, "separator", separator);
   sb_json_string(json, "decimal", decimal);
   sb_json_count(json, "header_lines", m->header_lines);

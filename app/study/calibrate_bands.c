@@ -1,17 +1,14 @@
 // Bands of the model's loops before and after a calibration; see calibrate_private.h.
 #include "app/study/calibrate_private.h"
 
+#include "app/base/number.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 typedef SbCalibrateWork Work;
 
 enum { BAND_DRAWS = 60 };
-
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
 
 // Forces of the runs at one place of every curve: [curve][way][piece][draw].
 static size_t draw_place(size_t curve, int way, int piece) {
@@ -41,7 +38,7 @@ static void find_bands(SbMeasuredBand *band, const Work *work, double *force, si
           of[count++] = of[k];
         }
       }
-      qsort(of, count, sizeof *of, compare_doubles);
+      qsort(of, count, sizeof *of, sb_number_compare);
       const size_t cut = count / 40;
       double *pair = band[c].force[way][piece];
       pair[0] = 2 * count > draws ? of[cut] : NAN;

@@ -1,6 +1,8 @@
 // What samples say of parameters, and the fitted scene; see calibrate.h.
 #include "app/study/calibrate.h"
 
+#include "app/base/number.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,11 +10,6 @@
 const char *sb_identifiable_name(SbIdentifiable identifiable) {
   static const char *const names[] = {"yes", "with-other", "no"};
   return names[identifiable];
-}
-
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
 }
 
 static double quantile(const double *sorted, size_t count, double share) {
@@ -39,7 +36,7 @@ static void find_moments(SbCalibration *out) {
       square += (column[i] - mean[j]) * (column[i] - mean[j]);
     }
     of->deviation = sqrt(square / (double)(count - 1));
-    qsort(column, count, sizeof *column, compare_doubles);
+    qsort(column, count, sizeof *column, sb_number_compare);
     of->interval[0] = quantile(column, count, 0.025);
     of->interval[1] = quantile(column, count, 0.975);
   }

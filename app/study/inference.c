@@ -1,6 +1,8 @@
 // Fit and posterior; see the header.
 #include "app/study/inference.h"
 
+#include "app/base/number.h"
+
 #include "engine/numeric/sampling.h"
 
 #include <glib.h>
@@ -85,11 +87,6 @@ static double scale_of(const Work *work, size_t i) {
   return sqrt(work->asked->weight[i]) / sigma;
 }
 
-static int compare_doubles(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 // Deviations of the groups from residuals; from their median first, then by Huber's proposal 2.
 static void find_sigma(Work *work, const double *residual, bool first) {
   const SbInferenceAsked *asked = work->asked;
@@ -109,7 +106,7 @@ static void find_sigma(Work *work, const double *residual, bool first) {
     }
     double sigma = work->out->sigma[g];
     if (first) {
-      qsort(value, count, sizeof *value, compare_doubles);
+      qsort(value, count, sizeof *value, sb_number_compare);
       sigma = value[count / 2] / 0.6745;
     }
     const double taken =

@@ -152,7 +152,7 @@ static void test_x3p(void) {
   // What the XML announces is looked at.
   const struct {
     const char *from, *to, *why;
-  } wrong[] = {{"<SizeX>20<", "<SizeX>21<", "2720 bytes of points"},
+  } wrong[] = {{"<SizeX>20<", "<SizeX>21<", "is cut short: 21 x 17 points announced"},
                {"<SizeX>20<", "<SizeX>-4<", "matrix of \"-4\""},
                {"<AxisType>I<", "<AxisType>A<", "CX is not an incremental axis"},
                {">SUR<", ">PCL<", "feature type \"PCL\""},

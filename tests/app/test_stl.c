@@ -140,7 +140,7 @@ static void test_refused(void) {
   refuse("hello", 5, "mm", "not an STL file");
   refuse("solid x\nendsolid x\n", 19, "mm", "no triangles");
   const char *wrong = "solid x\n facet normal 0 0 0 outer loop vertex 1 2 three";
-  refuse(wrong, strlen(wrong), "mm", "part.stl:2: a number expected, not 'three'");
+  refuse(wrong, strlen(wrong), "mm", "part.stl: line 2: a number expected, not 'three'");
   const char *junk = "solid x\n circle 1\nendsolid";
   refuse(junk, strlen(junk), "mm", "'circle' is not part of STL");
   g_byte_array_unref(binary);

@@ -7,34 +7,60 @@
 
 #include <math.h>
 
-gboolean sb_scan_fail(GError **error, const char *name, const char *format, ...) {
-  va_list arguments;
-  va_start(arguments, format);
-  g_autofree char *text = g_strdup_vprintf(format, arguments);
-  va_end(arguments);
-  g_autofree char *whole = g_strconcat(name, ": ", text, NULL);
-  g_autofree char *shown = sb_printable(whole, strlen(whole));
-  g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, shown);
-  return FALSE;
-}
-
-gboolean sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, const char *name,
-                          GError **error) {
+bool sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, GError **error) {
   const guint64 most = SB_HEIGHTS_POINTS_MAX;
   if (columns == 0 || rows == 0 || columns > most || rows > most / columns) {
-    return sb_scan_fail(error, name,
-                        "%" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT
-                        " points (allowed at most %" G_GUINT64_FORMAT ")",
-                        columns, rows, most);
+    return sb_app_error_input(error,
+                              "%" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT
+                              " points (allowed at most %" G_GUINT64_FORMAT ")",
+                              columns, rows, most);
   }
   out->heights.columns = out->heights.stride = (size_t)columns;
   out->heights.rows = (size_t)rows;
   out->heights.z = g_try_new(double, (gsize)(columns * rows));
   if (out->heights.z == NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO,
-                "%s: no memory for %" G_GUINT64_FORMAT " points", name, columns * rows);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for %" G_GUINT64_FORMAT " points",
+                columns * rows);
   }
   return out->heights.z != NULL;
+}
+
+static double number_at(const guchar *p, SbScanKind kind) {
+  switch (kind) {
+  case SB_SCAN_U8:
+    return *p;
+  case SB_SCAN_U16:
+    return sb_bytes_u16(p);
+  case SB_SCAN_U32:
+    return sb_bytes_u32(p);
+  case SB_SCAN_FLOAT:
+    return sb_bytes_float(p);
+  case SB_SCAN_I8:
+    return (gint8)*p;
+  case SB_SCAN_I16:
+    return (gint16)sb_bytes_u16(p);
+  case SB_SCAN_I32:
+    return (gint32)sb_bytes_u32(p);
+  default:
+    return sb_bytes_double(p);
+  }
+}
+
+bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
+                       SbScanBytes bytes, double scale, double missing, GError **error) {
+  static const guint8 sizes[SB_SCAN_KINDS] = {1, 2, 4, 4, 1, 2, 4, 8};
+  const guint64 room = (guint64)(bytes.end - bytes.at) / sizes[kind];
+  if (columns > 0 && rows > 0 && (columns > room || rows > room / columns)) {
+    return sb_app_error_input(
+        error, "is cut short: %" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT " points announced",
+        columns, rows);
+  }
+  const bool good = sb_scan_allocate(out, columns, rows, error);
+  for (guint64 i = 0; good && i < columns * rows; i++) {
+    const double value = number_at(bytes.at + i * sizes[kind], kind);
+    out->heights.z[i] = value == missing ? NAN : scale * value;
+  }
+  return good;
 }
 
 double sb_scan_length(const char *unit) {
@@ -49,15 +75,11 @@ double sb_scan_length(const char *unit) {
     return 1e-6;
   }
   double value = 0;
-  g_autofree char *one = g_strconcat("1 ", name, NULL);
-  return *name != '\0' && g_utf8_validate(one, -1, NULL) &&
-                 sb_quantity_parse(&value, one, "m", "µm", NULL) && value > 0
-             ? value
-             : 0;
+  return *name != '\0' && sb_unit_scale(&value, name, "m", "µm", NULL) ? value : 0;
 }
 
-gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
-                       const char *name, GError **error) {
+static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                        GError **error) {
   static const struct {
     const char *start;
     SbScanReader *read;
@@ -65,35 +87,41 @@ gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScan
                  {"PK\x03\x04", sb_scan_parse_x3p}, {"aISO-1.0", sb_scan_parse_sdf},
                  {"aBCR-1.0", sb_scan_parse_sdf},   {"bISO-1.0", sb_scan_parse_sdf},
                  {"bBCR-1.0", sb_scan_parse_sdf},   {"", sb_scan_parse_text}};
-  *out = (SbScan){.notes = g_ptr_array_new_with_free_func(g_free)};
+  const gsize length = (gsize)(bytes.end - bytes.at);
   gsize format = 0;
   for (gsize skip; skip = strlen(formats[format].start),
-                   skip > length || memcmp(data, formats[format].start, skip) != 0;) {
+                   skip > length || memcmp(bytes.at, formats[format].start, skip) != 0;) {
     format++;
   }
-  const gboolean text = *formats[format].start == '\0', container = format == 0;
-  if (!text && (choices->unit > 0 || choices->lateral_unit > 0)) {
-    sb_scan_clear(out);
-    return sb_scan_fail(error, name, "states its own units: --unit applies to text files only");
+  if (*formats[format].start != '\0' && (choices->unit > 0 || choices->lateral_unit > 0)) {
+    return sb_app_error_input(error, "states its own units: --unit applies to text files only");
   }
-  if (!container && choices->channel != NULL) {
-    sb_scan_clear(out);
-    return sb_scan_fail(error, name, "has no channels: --channel is for .gwy");
+  if (format != 0 && choices->channel != NULL) {
+    return sb_app_error_input(error, "has no channels: --channel is for .gwy");
   }
-  const guchar *bytes = (const guchar *)data;
-  gboolean good =
-      formats[format].read(out, (SbScanBytes){bytes, bytes + length, name}, choices, error);
+  if (!formats[format].read(out, bytes, choices, error)) {
+    return false;
+  }
   SbHeights *h = &out->heights;
-  if (good && choices->spacing > 0) {
+  if (choices->spacing > 0) {
     h->dx = h->dy = choices->spacing;
   }
-  if (good && !(isfinite(h->dx) && h->dx > 0 && (h->rows == 1 || (isfinite(h->dy) && h->dy > 0)))) {
-    good = sb_scan_fail(error, name, "has no distance between its points");
+  if (!(isfinite(h->dx) && h->dx > 0 && (h->rows == 1 || (isfinite(h->dy) && h->dy > 0)))) {
+    return sb_app_error_input(error, "has no distance between its points");
   }
-  for (gsize i = 0; good && i < h->columns * h->rows; i++) {
+  for (gsize i = 0; i < h->columns * h->rows; i++) {
     h->z[i] = isfinite(h->z[i]) ? h->z[i] : NAN;
   }
+  return true;
+}
+
+gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
+                       const char *name, GError **error) {
+  const guchar *bytes = (const guchar *)data;
+  *out = (SbScan){.notes = g_ptr_array_new_with_free_func(g_free)};
+  const bool good = read_format(out, (SbScanBytes){bytes, bytes + length}, choices, error);
   if (!good) {
+    sb_app_error_prefix(error, name);
     sb_scan_clear(out);
   }
   return good;
@@ -101,15 +129,10 @@ gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScan
 
 gboolean sb_scan_read(SbScan *out, const char *path, const SbScanChoices *choices, GError **error) {
   *out = (SbScan){0};
-  g_autoptr(GPtrArray) issues = sb_issues_new();
   gsize length = 0;
-  g_autofree char *data = sb_reader_load(&length, path, path, SB_SCAN_BYTES_MAX, issues);
-  if (data == NULL) {
-    g_autofree char *line = sb_issue_line(issues->pdata[0]);
-    g_set_error_literal(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, line);
-    return FALSE;
-  }
-  if (!sb_scan_parse(out, data, length, choices, path, error)) {
+  g_autofree char *data =
+      sb_reader_load_file(&length, path, path, SB_SCAN_BYTES_MAX, SB_APP_ERROR_INPUT, error);
+  if (data == NULL || !sb_scan_parse(out, data, length, choices, path, error)) {
     return FALSE;
   }
   out->sha256 = g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)data, length);

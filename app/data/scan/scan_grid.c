@@ -1,19 +1,16 @@
 // Points in text files to grids and profiles of even steps.
 #include "app/data/scan/scan_private.h"
 
+#include "app/base/number.h"
+
 #include <math.h>
 #include <stdlib.h>
 
 // A step may differ by this part of the mean one: coordinates are rounded.
 static const double uneven_max = 0.02;
 
-static int ascending(const void *a, const void *b) {
-  const double x = *(const double *)a, y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
 static double at(const SbScanText *text, gsize row, gsize column) {
-  return g_array_index(text->numbers, double, row * text->columns + column);
+  return g_array_index(text->matrix.value, double, row * text->matrix.columns + column);
 }
 
 // Even places along an axis; count 0 where there are none.
@@ -23,7 +20,7 @@ typedef struct {
 } Axis;
 
 static Axis find_axis(const SbScanText *text, gsize column) {
-  const gsize rows = text->rows;
+  const gsize rows = text->matrix.rows;
   double *value = g_try_new(double, rows);
   Axis out = {0};
   for (gsize i = 0; i < rows && value != NULL; i++) {
@@ -35,7 +32,7 @@ static Axis find_axis(const SbScanText *text, gsize column) {
   if (value == NULL) {
     return out;
   }
-  qsort(value, rows, sizeof *value, ascending);
+  qsort(value, rows, sizeof *value, sb_number_compare);
   const double range = value[rows - 1] - value[0];
   double least = INFINITY, most = 0, last = value[0];
   gsize count = 1;
@@ -55,58 +52,57 @@ static Axis find_axis(const SbScanText *text, gsize column) {
   return out;
 }
 
-gboolean sb_scan_is_grid(const SbScanText *text) {
+bool sb_scan_is_grid(const SbScanText *text) {
   // Of a matrix of three columns the first two do not repeat themselves evenly.
   const Axis x = find_axis(text, 0), y = find_axis(text, 1);
-  return x.count > 1 && y.count > 1 && x.count < text->rows && y.count < text->rows &&
-         (double)x.count * (double)y.count <= 4.0 * (double)text->rows;
+  return x.count > 1 && y.count > 1 && x.count < text->matrix.rows && y.count < text->matrix.rows &&
+         (double)x.count * (double)y.count <= 4.0 * (double)text->matrix.rows;
 }
 
-gboolean sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
-                      GError **error) {
+bool sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
+                  GError **error) {
   const Axis x = find_axis(text, 0), y = find_axis(text, 1);
-  if (!sb_scan_allocate(out, x.count, y.count, text->name, error)) {
-    return FALSE;
+  if (!sb_scan_allocate(out, x.count, y.count, error)) {
+    return false;
   }
   for (gsize k = 0; k < x.count * y.count; k++) {
     out->heights.z[k] = NAN;
   }
-  for (gsize i = 0; i < text->rows; i++) {
+  for (gsize i = 0; i < text->matrix.rows; i++) {
     const double j = round((at(text, i, 0) - x.first) / x.step);
     const double k = round((at(text, i, 1) - y.first) / y.step);
     double *z = &out->heights.z[(gsize)k * x.count + (gsize)j];
     if (!isnan(*z)) {
-      return sb_scan_fail(error, text->name, "the point x = %g, y = %g is there twice",
-                          at(text, i, 0), at(text, i, 1));
+      return sb_app_error_input(error, "the point x = %g, y = %g is there twice", at(text, i, 0),
+                                at(text, i, 1));
     }
     *z = vertical * at(text, i, 2);
   }
   out->heights.dx = lateral * x.step;
   out->heights.dy = lateral * y.step;
-  return TRUE;
+  return true;
 }
 
-gboolean sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double vertical,
-                         GError **error) {
-  const gsize rows = text->rows;
-  if (!sb_scan_allocate(out, rows, 1, text->name, error)) {
-    return FALSE;
+bool sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double vertical,
+                     GError **error) {
+  const gsize rows = text->matrix.rows;
+  if (!sb_scan_allocate(out, rows, 1, error)) {
+    return false;
   }
   for (gsize i = 0; i < rows; i++) {
-    out->heights.z[i] = vertical * at(text, i, text->columns - 1);
+    out->heights.z[i] = vertical * at(text, i, text->matrix.columns - 1);
   }
   const double step = rows > 1 ? (at(text, rows - 1, 0) - at(text, 0, 0)) / (double)(rows - 1) : 0;
-  for (gsize i = 1; i < rows && text->columns > 1; i++) {
+  for (gsize i = 1; i < rows && text->matrix.columns > 1; i++) {
     const double each = at(text, i, 0) - at(text, i - 1, 0);
     if (!(fabs(each - step) <= uneven_max * fabs(step)) || step == 0) {
-      return sb_scan_fail(error, text->name,
-                          "x is not even: a step of %g before row %" G_GSIZE_FORMAT
-                          " where %g is the mean",
-                          each, i + 1, step);
+      return sb_app_error_input(
+          error, "x is not even: a step of %g before row %" G_GSIZE_FORMAT " where %g is the mean",
+          each, i + 1, step);
     }
   }
-  if (text->columns > 1) {
+  if (text->matrix.columns > 1) {
     out->heights.dx = lateral * fabs(step);
   }
-  return TRUE;
+  return true;
 }

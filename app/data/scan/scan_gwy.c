@@ -13,168 +13,120 @@ typedef struct {
   const char *name;
   char kind;
   const guchar *value; // begins here; of an array behind its count
-  guint64 count;       // of an array, or bytes of an object behind its head
+  guint64 count;       // of an array, or bytes of an object behind its head; 0: absent
   const char *object;  // its class
 } Component;
 
-static gboolean cut_short(const SbScanBytes *bytes, GError **error) {
-  return sb_scan_fail(error, bytes->name, "is cut short, or no container of Gwyddion's");
+// Steps over `count` bytes and returns them; NULL if there are fewer.
+static const guchar *take(SbScanBytes *bytes, guint64 count) {
+  const guchar *at = bytes->at;
+  if (count > (guint64)(bytes->end - at)) {
+    return NULL;
+  }
+  bytes->at += count;
+  return at;
 }
 
 // A text with its end within the bytes; NULL without.
 static const char *take_text(SbScanBytes *bytes) {
-  const guchar *end =
-      bytes->at < bytes->end ? memchr(bytes->at, '\0', (gsize)(bytes->end - bytes->at)) : NULL;
-  const char *text = (const char *)bytes->at;
-  if (end == NULL) {
+  const guint64 left = (guint64)(bytes->end - bytes->at);
+  const guint64 length = strnlen((const char *)bytes->at, left);
+  return length < left ? (const char *)take(bytes, length + 1) : NULL;
+}
+
+static bool take_count(SbScanBytes *bytes, guint64 *out) {
+  const guchar *p = take(bytes, 4);
+  *out = p != NULL ? sb_bytes_u32(p) : 0;
+  return p != NULL;
+}
+
+// Returns the class of an object and writes its content; NULL if it is not complete.
+static const char *take_object(SbScanBytes *bytes, SbScanBytes *content) {
+  const char *name = take_text(bytes);
+  guint64 size;
+  if (name == NULL || !take_count(bytes, &size)) {
     return NULL;
   }
-  bytes->at = end + 1;
-  return text;
-}
-
-static gboolean take_bytes(SbScanBytes *bytes, guint64 count) {
-  if (count > (guint64)(bytes->end - bytes->at)) {
-    return FALSE;
-  }
-  bytes->at += count;
-  return TRUE;
-}
-
-static gboolean take_count(SbScanBytes *bytes, guint64 *out) {
-  const guchar *p = bytes->at;
-  if (!take_bytes(bytes, 4)) {
-    return FALSE;
-  }
-  *out = sb_scan_u32(p);
-  return TRUE;
-}
-
-// Class and bytes of an object.
-static gboolean take_object(SbScanBytes *bytes, const char **name, guint64 *size) {
-  *name = take_text(bytes);
-  return *name != NULL && take_count(bytes, size) && *size <= (guint64)(bytes->end - bytes->at);
-}
-
-static guint64 size_of(char kind) {
-  switch (g_ascii_tolower(kind)) {
-  case 'b':
-  case 'c':
-    return 1;
-  case 'i':
-    return 4;
-  case 'q':
-  case 'd':
-    return 8;
-  default:
-    return 0;
-  }
+  content->at = take(bytes, size);
+  content->end = bytes->at;
+  return content->at != NULL ? name : NULL;
 }
 
 // The next component of an object's bytes.
-static gboolean take_component(Component *out, SbScanBytes *bytes) {
+static bool take_component(Component *out, SbScanBytes *bytes) {
+  static const char numbers[] = "bciqd";
+  static const guint8 sizes[] = {1, 1, 4, 8, 8};
   *out = (Component){.name = take_text(bytes)};
-  if (out->name == NULL || bytes->at >= bytes->end) {
-    return FALSE;
+  const guchar *kind = out->name != NULL ? take(bytes, 1) : NULL;
+  if (kind == NULL) {
+    return false;
   }
-  out->kind = (char)*bytes->at++;
-  const gboolean array = g_ascii_isupper(out->kind);
-  const guint64 size = size_of(out->kind);
-  if (array && !take_count(bytes, &out->count)) {
-    return FALSE;
+  out->kind = (char)*kind;
+  const char one = g_ascii_tolower(out->kind), *number = memchr(numbers, one, sizeof sizes);
+  guint64 count = 1;
+  if (one != out->kind && !take_count(bytes, &count)) {
+    return false;
   }
   out->value = bytes->at;
-  if (size > 0) {
-    return take_bytes(bytes, size * (array ? out->count : 1));
+  out->count = count;
+  if (number != NULL) {
+    return take(bytes, sizes[number - numbers] * count) != NULL;
   }
-  for (guint64 k = 0; k < (array ? out->count : 1); k++) {
-    guint64 inside = 0;
-    const char *name = NULL;
-    if (g_ascii_tolower(out->kind) == 's') {
-      name = take_text(bytes);
-    } else if (g_ascii_tolower(out->kind) == 'o' && take_object(bytes, &name, &inside)) {
-      if (!array) {
-        out->object = name;
-        out->value = bytes->at;
-        out->count = inside;
-      }
-      name = take_bytes(bytes, inside) ? name : NULL;
-    }
-    if (name == NULL) {
-      return FALSE;
+  const char *text = "";
+  for (guint64 k = 0; k < count && text != NULL; k++) {
+    SbScanBytes content = *bytes;
+    text = one == 's' ? take_text(bytes) : one == 'o' ? take_object(bytes, &content) : NULL;
+    if (out->kind == 'o' && text != NULL) {
+      out->object = text;
+      out->value = content.at;
+      out->count = (guint64)(content.end - content.at);
     }
   }
-  return TRUE;
+  return text != NULL;
 }
 
-static SbScanBytes inside_of(const Component *component, const char *name) {
-  return (SbScanBytes){component->value, component->value + component->count, name};
+// Finds a component of an object. Returns false, with out->value NULL, if there is none.
+static bool find(Component *out, const Component *object, char kind, const char *name) {
+  SbScanBytes inside = {object->value, object->value + object->count};
+  while (take_component(out, &inside)) {
+    if (out->kind == kind && strcmp(out->name, name) == 0) {
+      return true;
+    }
+  }
+  out->value = NULL;
+  return false;
 }
 
 // ---- Fields ----
 
 typedef struct {
-  gint64 columns, rows;
+  guint64 columns, rows;
   double width, height;
-  char *unit_xy, *unit_z; // owned
-  const guchar *data;
-  guint64 count;
+  const char *unit_xy, *unit_z;
+  const guchar *data; // of doubles
 } Field;
 
-static void field_clear(Field *field) {
-  g_free(field->unit_xy);
-  g_free(field->unit_z);
-}
-
 // The text of a GwySIUnit; empty without.
-static char *unit_text(const Component *unit, const char *name) {
-  SbScanBytes inside = inside_of(unit, name);
-  Component each;
-  while (inside.at < inside.end && take_component(&each, &inside)) {
-    if (each.kind == 's' && strcmp(each.name, "unitstr") == 0) {
-      return g_strdup((const char *)each.value);
-    }
-  }
-  return g_strdup("");
+static const char *unit_of(const Component *field, const char *name) {
+  Component unit, text;
+  const bool known = find(&unit, field, 'o', name) && find(&text, &unit, 's', "unitstr");
+  return known ? (const char *)text.value : "";
 }
 
-static gboolean read_field(Field *out, const Component *component, const char *name,
-                           GError **error) {
-  SbScanBytes inside = inside_of(component, name);
-  Component each;
-  *out = (Field){0};
-  while (inside.at < inside.end) {
-    if (!take_component(&each, &inside)) {
-      field_clear(out);
-      return cut_short(&inside, error);
-    }
-    if (each.kind == 'i' && strcmp(each.name, "xres") == 0) {
-      out->columns = (gint32)sb_scan_u32(each.value);
-    } else if (each.kind == 'i' && strcmp(each.name, "yres") == 0) {
-      out->rows = (gint32)sb_scan_u32(each.value);
-    } else if (each.kind == 'd' && strcmp(each.name, "xreal") == 0) {
-      out->width = sb_scan_double(each.value);
-    } else if (each.kind == 'd' && strcmp(each.name, "yreal") == 0) {
-      out->height = sb_scan_double(each.value);
-    } else if (each.kind == 'D' && strcmp(each.name, "data") == 0) {
-      out->data = each.value;
-      out->count = each.count;
-    } else if (each.kind == 'o' && strcmp(each.name, "si_unit_xy") == 0) {
-      g_free(out->unit_xy);
-      out->unit_xy = unit_text(&each, name);
-    } else if (each.kind == 'o' && strcmp(each.name, "si_unit_z") == 0) {
-      g_free(out->unit_z);
-      out->unit_z = unit_text(&each, name);
-    }
+static bool read_field(Field *out, const Component *field, GError **error) {
+  Component columns, rows, width, height, data;
+  const bool sized = find(&columns, field, 'i', "xres") && find(&rows, field, 'i', "yres");
+  *out = (Field){.unit_xy = unit_of(field, "si_unit_xy"), .unit_z = unit_of(field, "si_unit_z")};
+  out->columns = sized ? sb_bytes_u32(columns.value) : 0;
+  out->rows = sized ? sb_bytes_u32(rows.value) : 0;
+  out->width = find(&width, field, 'd', "xreal") ? sb_bytes_double(width.value) : 0;
+  out->height = find(&height, field, 'd', "yreal") ? sb_bytes_double(height.value) : 0;
+  if (!find(&data, field, 'D', "data") || data.count == 0 ||
+      out->columns * out->rows != data.count) {
+    return sb_app_error_input(error, "a data field's size is not that of its data");
   }
-  if (out->columns < 1 || out->rows < 1 || out->data == NULL ||
-      (guint64)out->columns > out->count ||
-      out->count / (guint64)out->columns != (guint64)out->rows ||
-      out->count % (guint64)out->columns != 0) {
-    field_clear(out);
-    return sb_scan_fail(error, name, "a data field's size is not that of its data");
-  }
-  return TRUE;
+  out->data = data.value;
+  return true;
 }
 
 // ---- Channels ----
@@ -205,33 +157,24 @@ static void take_channel(GArray *channels, const Component *each) {
   }
   char *rest = NULL;
   const long id = strtol(each->name + 1, &rest, 10);
-  const gboolean field = each->object != NULL && strcmp(each->object, "GwyDataField") == 0;
-  const gboolean data = field && strcmp(rest, "/data") == 0;
-  const gboolean mask = field && strcmp(rest, "/mask") == 0;
-  const gboolean title = each->kind == 's' && strcmp(rest, "/data/title") == 0;
+  const bool field = g_strcmp0(each->object, "GwyDataField") == 0;
+  const bool data = field && strcmp(rest, "/data") == 0, mask = field && strcmp(rest, "/mask") == 0;
+  const bool title = each->kind == 's' && strcmp(rest, "/data/title") == 0;
   Channel *channel = data || mask || title ? channel_of(channels, id) : NULL;
-  if (channel != NULL && data) {
-    channel->data = *each;
-  } else if (channel != NULL && mask) {
-    channel->mask = *each;
-  } else if (channel != NULL) {
+  if (channel != NULL && title) {
     channel->title = (const char *)each->value;
+  } else if (channel != NULL) {
+    *(data ? &channel->data : &channel->mask) = *each;
   }
 }
 
-static gboolean is_height(const Channel *channel, const char *name) {
+static bool is_height(const Channel *channel) {
   Field field;
-  if (channel->data.value == NULL || !read_field(&field, &channel->data, name, NULL)) {
-    return FALSE;
-  }
-  const gboolean height = g_strcmp0(field.unit_z, "m") == 0;
-  field_clear(&field);
-  return height;
+  return read_field(&field, &channel->data, NULL) && strcmp(field.unit_z, "m") == 0;
 }
 
-// The one that is asked for, else the only one of heights.
-static const Channel *choose(const GArray *channels, const char *wanted, const char *name,
-                             GError **error) {
+// The one that is requested, else the only one of heights.
+static const Channel *choose(const GArray *channels, const char *wanted, GError **error) {
   const Channel *found = NULL;
   int count = 0;
   g_autoptr(GString) list = g_string_new(NULL);
@@ -242,106 +185,94 @@ static const Channel *choose(const GArray *channels, const char *wanted, const c
       continue;
     }
     if (wanted != NULL ? strcmp(number, wanted) == 0 || g_strcmp0(channel->title, wanted) == 0
-                       : is_height(channel, name)) {
+                       : is_height(channel)) {
       count++;
       found = channel;
     }
     if (list->len < 200) {
-      g_string_append_printf(list, "%s%s%s%s%s", list->len > 0 ? ", " : "", number,
-                             channel->title != NULL ? " \"" : "",
-                             channel->title != NULL ? channel->title : "",
-                             channel->title != NULL ? "\"" : "");
+      g_string_append_printf(list, "%s%s", list->len > 0 ? ", " : "", number);
+      g_string_append_printf(list, channel->title != NULL ? " \"%s\"" : "%s",
+                             channel->title != NULL ? channel->title : "");
     }
   }
-  if (count == 1) {
-    return found;
-  }
   if (count > 1) {
-    sb_scan_fail(error, name, "has %d channels%s: choose one with --channel (%s)", count,
-                 wanted != NULL ? " of that title" : " of heights", list->str);
-  } else if (list->len == 0) {
-    sb_scan_fail(error, name, "has no data field");
-  } else {
-    sb_scan_fail(error, name, "has no channel %s (there are %s)",
-                 wanted != NULL ? wanted : "of heights", list->str);
+    sb_app_error_input(error, "has %d channels%s: choose one with --channel (%s)", count,
+                       wanted != NULL ? " of that title" : " of heights", list->str);
+  } else if (count == 0 && list->len == 0) {
+    sb_app_error_input(error, "has no data field");
+  } else if (count == 0) {
+    sb_app_error_input(error, "has no channel %s (there are %s)",
+                       wanted != NULL ? wanted : "of heights", list->str);
   }
-  return NULL;
+  return count == 1 ? found : NULL;
 }
 
-static gboolean apply_mask(SbScan *out, const Channel *channel, const char *name, GError **error) {
+static bool apply_mask(SbScan *out, const Channel *channel, GError **error) {
   Field mask;
-  if (!read_field(&mask, &channel->mask, name, error)) {
-    return FALSE;
+  if (!read_field(&mask, &channel->mask, error)) {
+    return false;
   }
-  const gboolean same = mask.count == (guint64)out->heights.columns * out->heights.rows &&
-                        (gsize)mask.columns == out->heights.columns;
+  if (mask.rows != out->heights.rows || mask.columns != out->heights.columns) {
+    return sb_app_error_input(error, "the mask has not the size of its data");
+  }
   guint64 masked = 0;
-  for (guint64 i = 0; same && i < mask.count; i++) {
-    if (sb_scan_double(mask.data + 8 * i) >= 0.5) {
+  for (guint64 i = 0; i < mask.columns * mask.rows; i++) {
+    if (sb_bytes_double(mask.data + 8 * i) >= 0.5) {
       out->heights.z[i] = NAN;
       masked++;
     }
   }
-  field_clear(&mask);
-  if (!same) {
-    return sb_scan_fail(error, name, "the mask has not the size of its data");
-  }
   if (masked > 0) {
-    g_ptr_array_add(out->notes,
-                    g_strdup_printf("%" G_GUINT64_FORMAT
-                                    " masked points are treated as missing (--ignore-mask)",
-                                    masked));
+    sb_note_add(out->notes,
+                "%" G_GUINT64_FORMAT " masked points are treated as missing (--ignore-mask)",
+                masked);
   }
-  return TRUE;
+  return true;
 }
 
-static gboolean read_channel(SbScan *out, const Channel *channel, const SbScanChoices *choices,
-                             const char *name, GError **error) {
+static bool read_channel(SbScan *out, const Channel *channel, bool masked, GError **error) {
   Field field;
-  if (!read_field(&field, &channel->data, name, error)) {
-    return FALSE;
+  if (!read_field(&field, &channel->data, error)) {
+    return false;
   }
-  const double xy = sb_scan_length(field.unit_xy != NULL ? field.unit_xy : "");
-  const double z = sb_scan_length(field.unit_z != NULL ? field.unit_z : "");
-  gboolean good = xy > 0 && z > 0;
-  if (!good) {
-    sb_scan_fail(error, name, "units of the channel are not lengths (\"%s\", heights \"%s\")",
-                 field.unit_xy != NULL ? field.unit_xy : "",
-                 field.unit_z != NULL ? field.unit_z : "");
+  const double xy = sb_scan_length(field.unit_xy), z = sb_scan_length(field.unit_z);
+  if (!(xy > 0 && z > 0)) {
+    return sb_app_error_input(error,
+                              "units of the channel are not lengths (\"%s\", heights \"%s\")",
+                              field.unit_xy, field.unit_z);
   }
-  good = good && sb_scan_allocate(out, (guint64)field.columns, (guint64)field.rows, name, error);
-  for (guint64 i = 0; good && i < field.count; i++) {
-    out->heights.z[i] = z * sb_scan_double(field.data + 8 * i);
+  const SbScanBytes data = {field.data, field.data + 8 * field.columns * field.rows};
+  if (!sb_scan_take_grid(out, field.columns, field.rows, SB_SCAN_DOUBLE, data, z, NAN, error)) {
+    return false;
   }
   out->heights.dx = xy * field.width / (double)field.columns;
   out->heights.dy = xy * field.height / (double)field.rows;
   out->title = g_strdup(channel->title);
-  field_clear(&field);
-  return good && (channel->mask.value == NULL || choices->ignore_mask ||
-                  apply_mask(out, channel, name, error));
+  return !masked || apply_mask(out, channel, error);
 }
 
-gboolean sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                           GError **error) {
+bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                       GError **error) {
   out->format = "Gwyddion";
   bytes.at += 4;
-  const char *class = NULL;
-  guint64 size = 0;
-  if (!take_object(&bytes, &class, &size)) {
-    return cut_short(&bytes, error);
+  SbScanBytes content;
+  const char *class = take_object(&bytes, &content);
+  if (class != NULL && strcmp(class, "GwyContainer") != 0) {
+    return sb_app_error_input(error, "contains no GwyContainer");
   }
-  if (strcmp(class, "GwyContainer") != 0) {
-    return sb_scan_fail(error, bytes.name, "contains no GwyContainer");
-  }
-  bytes.end = bytes.at + size;
   g_autoptr(GArray) channels = g_array_new(FALSE, FALSE, sizeof(Channel));
-  while (bytes.at < bytes.end) {
+  bool whole = class != NULL;
+  while (whole && content.at < content.end) {
     Component each;
-    if (!take_component(&each, &bytes)) {
-      return cut_short(&bytes, error);
+    whole = take_component(&each, &content);
+    if (whole) {
+      take_channel(channels, &each);
     }
-    take_channel(channels, &each);
   }
-  const Channel *channel = choose(channels, choices->channel, bytes.name, error);
-  return channel != NULL && read_channel(out, channel, choices, bytes.name, error);
+  if (!whole) {
+    return sb_app_error_input(error, "is cut short, or no container of Gwyddion's");
+  }
+  const Channel *channel = choose(channels, choices->channel, error);
+  return channel != NULL &&
+         read_channel(out, channel, channel->mask.value != NULL && !choices->ignore_mask, error);
 }

@@ -17,75 +17,57 @@ static char *field(const guchar *p, gsize size) {
              : g_convert(raw, -1, "UTF-8", "ISO-8859-1", NULL, NULL, NULL);
 }
 
-// Spacing of an axis [m]; 0 with an error for what is no length.
-static double spacing(const guchar *h, int axis, const char *name, GError **error) {
-  static const char *const names = "xyz";
+// Reads the spacing of an axis [m]; false with an error for what is no length.
+static bool read_spacing(double *out, const guchar *h, int axis, GError **error) {
   g_autofree char *unit = field(h + 180 + 16 * axis, 16);
-  const double step = sb_scan_float(h + 120 + 4 * axis), metres = sb_scan_length(unit);
-  if (!(metres > 0) || !isfinite(step) || step == 0) {
-    sb_scan_fail(error, name, "the spacing along %c, %g \"%s\", is not a length", names[axis], step,
-                 unit);
-    return 0;
-  }
-  return step * metres;
+  const double step = sb_bytes_float(h + 120 + 4 * axis);
+  *out = step * sb_scan_length(unit);
+  return (isfinite(*out) && *out != 0) ||
+         sb_app_error_input(error, "the spacing along %c, %g \"%s\", is not a length", "xyz"[axis],
+                            step, unit);
 }
 
-gboolean sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                           GError **error) {
+bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                       GError **error) {
   const guchar *h = bytes.at;
-  const char *name = bytes.name;
-  const guint64 length = (guint64)(bytes.end - bytes.at);
   out->format = "Digital Surf";
-  if (length < HEADER) {
-    return sb_scan_fail(error, name, "is cut short: no header of %d bytes", HEADER);
+  if (bytes.end - bytes.at < HEADER) {
+    return sb_app_error_input(error, "is cut short: no header of %d bytes", HEADER);
   }
-  const int kind = (gint16)sb_scan_u16(h + 18), bits = (gint16)sb_scan_u16(h + 98);
-  const gint64 columns = (gint32)sb_scan_u32(h + 108), rows = (gint32)sb_scan_u32(h + 112);
-  const int comment = sb_scan_u16(h + 334), private = sb_scan_u16(h + 336);
-  if (sb_scan_u16(h + 12) != 0) {
-    return sb_scan_fail(error, name, "is not in the byte order of format 2.00 for PCs");
+  const int kind = (gint16)sb_bytes_u16(h + 18), bits = (gint16)sb_bytes_u16(h + 98);
+  const gint32 columns = (gint32)sb_bytes_u32(h + 108), rows = (gint32)sb_bytes_u32(h + 112);
+  if (sb_bytes_u16(h + 12) != 0) {
+    return sb_app_error_input(error, "is not in the byte order of format 2.00 for PCs");
   }
   if (kind != PROFILE && kind != SURFACE) {
-    return sb_scan_fail(error, name,
-                        "contains an object of type %d (allowed 1, a profile, or 2, a "
-                        "surface)",
-                        kind);
+    return sb_app_error_input(
+        error, "contains an object of type %d (allowed 1, a profile, or 2, a surface)", kind);
   }
   if (bits != 16 && bits != 32) {
-    return sb_scan_fail(error, name, "has points of %d bits (allowed 16 or 32)", bits);
+    return sb_app_error_input(error, "has points of %d bits (allowed 16 or 32)", bits);
   }
   if (columns < 1 || rows < 1) {
-    return sb_scan_fail(error, name, "has sizes below 1 in its header");
+    return sb_app_error_input(error, "has sizes below 1 in its header");
   }
-  const guint64 begin = HEADER + (guint64)comment + (guint64) private, size = (guint64)bits / 8;
-  const guint64 room = length > begin ? (length - begin) / size : 0;
-  if ((guint64)columns > room || (guint64)rows > room / (guint64)columns) {
-    return sb_scan_fail(
-        error, name, "is cut short: %" G_GINT64_FORMAT " x %" G_GINT64_FORMAT " points announced",
-        columns, rows);
+  const glong begin = HEADER + sb_bytes_u16(h + 334) + sb_bytes_u16(h + 336);
+  bytes.at += MIN(begin, bytes.end - bytes.at);
+  double step = 0;
+  const double missing =
+      sb_bytes_u16(h + 86) != 0 ? (double)(gint32)sb_bytes_u32(h + 100) - 2 : NAN;
+  if (!read_spacing(&step, h, 2, error) || !read_spacing(&out->heights.dx, h, 0, error) ||
+      (rows > 1 && !read_spacing(&out->heights.dy, h, 1, error)) ||
+      !sb_scan_take_grid(out, (guint64)columns, (guint64)rows,
+                         bits == 16 ? SB_SCAN_I16 : SB_SCAN_I32, bytes, step, missing, error)) {
+    return false;
   }
-  const double z_step = spacing(h, 2, name, error);
-  if (z_step == 0 || (out->heights.dx = fabs(spacing(h, 0, name, error))) == 0 ||
-      (rows > 1 && (out->heights.dy = fabs(spacing(h, 1, name, error))) == 0) ||
-      !sb_scan_allocate(out, (guint64)columns, (guint64)rows, name, error)) {
-    return FALSE;
-  }
-  const gboolean special = sb_scan_u16(h + 86) != 0;
-  const gint64 missing = (gint64)(gint32)sb_scan_u32(h + 100) - 2;
-  const guchar *p = h + begin;
-  for (gint64 i = 0; i < columns * rows; i++, p += size) {
-    const gint64 value = bits == 16 ? (gint16)sb_scan_u16(p) : (gint32)sb_scan_u32(p);
-    out->heights.z[i] = special && value == missing ? NAN : (double)value * z_step;
-  }
+  out->heights.dx = fabs(out->heights.dx);
+  out->heights.dy = fabs(out->heights.dy);
   out->title = field(h + 20, 30);
-  if (sb_scan_u16(h + 290) != 0) {
-    g_ptr_array_add(
-        out->notes,
-        g_strdup("the header says that heights were inverted; they are used unchanged"));
+  if (sb_bytes_u16(h + 290) != 0) {
+    sb_note_add(out->notes, "the header says that heights were inverted; they are used unchanged");
   }
-  if (sb_scan_u16(h + 14) > 1) {
-    g_ptr_array_add(out->notes,
-                    g_strdup_printf("the first of %d objects", (int)sb_scan_u16(h + 14)));
+  if (sb_bytes_u16(h + 14) > 1) {
+    sb_note_add(out->notes, "the first of %d objects", sb_bytes_u16(h + 14));
   }
-  return TRUE;
+  return true;
 }

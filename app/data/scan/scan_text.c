@@ -49,7 +49,7 @@ static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDi
       g_string_append_unichar(plain, letter);
     }
   }
-  entry->key = g_string_free(plain, FALSE);
+  entry->key = g_string_free(plain, false);
   entry->value = g_strstrip(g_strdup(line + at + 1));
   const gsize number = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
   entry->number = number > 0 ? entry->number : NAN;
@@ -61,8 +61,9 @@ static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDi
 }
 
 // Returns the entry of the first of the patterns (separated by |, * for any letters) that the
-// header has; NULL without.
+// header has; an empty one without.
 static const SbScanEntry *find(const SbScanText *text, const char *patterns) {
+  static const SbScanEntry none = {(char *)"", (char *)"", NAN, (char *)""};
   g_auto(GStrv) each = g_strsplit(patterns, "|", -1);
   for (char **pattern = each; *pattern != NULL; pattern++) {
     for (guint i = 0; i < text->entries->len; i++) {
@@ -72,11 +73,7 @@ static const SbScanEntry *find(const SbScanText *text, const char *patterns) {
       }
     }
   }
-  return NULL;
-}
-
-static double number_of(const SbScanEntry *entry) {
-  return entry != NULL ? entry->number : NAN;
+  return &none;
 }
 
 // What the header says of a matrix; NaN or 0 where it does not.
@@ -87,55 +84,46 @@ typedef struct {
   double missing;           // value of missing points, as written
   double vertical, lateral; // units [m]
   double factor;            // of written heights; NaN: none
-  gboolean bare;
+  bool bare;
 } Header;
 
 // A length by itself where it has a unit, else in units of lengths.
-static double length_of(const SbScanEntry *entry, gboolean *bare) {
-  const double value = number_of(entry);
-  const double unit = entry != NULL ? sb_scan_length(entry->unit) : 0;
-  if (!isnan(value) && unit == 0) {
-    *bare = TRUE;
-  }
-  return unit > 0 ? value * unit : value;
-}
-
-static double unit_of(const SbScanText *text, const char *names) {
-  const SbScanEntry *entry = find(text, names);
-  return entry != NULL ? sb_scan_length(entry->value) : 0;
+static double length_of(const SbScanEntry *entry, bool *bare) {
+  const double unit = sb_scan_length(entry->unit);
+  *bare |= !isnan(entry->number) && unit == 0;
+  return unit > 0 ? entry->number * unit : entry->number;
 }
 
 static Header header_of(const SbScanText *text) {
+#define ANY_STEP "|pixelsize|spacing|schrittweite|pas|passo"
   Header h = {0};
-  h.columns = number_of(find(text, "ncols|xpixels|columns|pixelsx|spalten|colonnes|colonne"));
-  h.rows = number_of(find(text, "nrows|ypixels|rows|lines|pixelsy|zeilen|lignes|righe"));
-  h.step_x = length_of(
-      find(text, "cellsize|dx|xspacing|xstep|xscale|pixelsize|spacing|schrittweite|pas|passo"),
-      &h.bare);
-  h.step_y = length_of(
-      find(text, "cellsize|dy|yspacing|ystep|yscale|pixelsize|spacing|schrittweite|pas|passo"),
-      &h.bare);
+  h.columns = find(text, "ncols|xpixels|columns|pixelsx|spalten|colonnes|colonne")->number;
+  h.rows = find(text, "nrows|ypixels|rows|lines|pixelsy|zeilen|lignes|righe")->number;
+  h.step_x = length_of(find(text, "cellsize|dx|xspacing|xstep|xscale" ANY_STEP), &h.bare);
+  h.step_y = length_of(find(text, "cellsize|dy|yspacing|ystep|yscale" ANY_STEP), &h.bare);
   h.width = length_of(
       find(text, "xlength|width|xsize|xreal|xrange|breite|largeur|larghezza|ancho*"), &h.bare);
   h.height = length_of(
       find(text, "ylength|height|ysize|yreal|yrange|höhe|hauteur|altezza|altura|alto"), &h.bare);
-  h.missing = number_of(find(text, "nodatavalue|nodata|fehlwert"));
-  h.vertical = unit_of(text, "zunit*|valueunit*|heightunit*|unitz|*einheit*wert*|wert*einheit*|"
-                             "*unit*val*|einheitz|zeinheit|unitéz|unitàz");
-  h.lateral = unit_of(text, "xunit*|lateralunit*|xyunit*|unitxy|unitx|einheitx*|xeinheit|unitéx*|"
-                            "unitàx*");
+  h.missing = find(text, "nodatavalue|nodata|fehlwert")->number;
+  h.vertical = sb_scan_length(
+      find(text, "zunit*|valueunit*|heightunit*|unitz|*einheit*wert*|wert*einheit*|*unit*val*|"
+                 "einheitz|zeinheit|unitéz|unitàz")
+          ->value);
+  h.lateral = sb_scan_length(find(text, "xunit*|lateralunit*|xyunit*|unitxy|unitx|einheitx*|"
+                                        "xeinheit|unitéx*|unitàx*")
+                                 ->value);
   // A factor of the written heights, with its own unit or in the unit of heights.
   const SbScanEntry *factor = find(
       text, "zfactor|zscale|zscaling|heightfactor|heightscale|factor*|scalefactor|*skalierung*|"
             "höhenfaktor|zfaktor|facteur*|fattore*|bit2nm|*faktor");
-  const double unit = factor != NULL ? sb_scan_length(factor->unit) : 0;
-  h.factor = number_of(factor);
+  const double unit = sb_scan_length(factor->unit);
+  h.factor = factor->number;
   h.vertical = unit > 0 && isfinite(h.factor) ? unit : h.vertical;
   // SPIP's lengths are in nanometres; so are its heights times Bit2nm where no unit is given.
-  const SbScanEntry *format = find(text, "fileformat");
-  if (format != NULL && g_ascii_strcasecmp(format->value, "ASCII") == 0) {
+  if (g_ascii_strcasecmp(find(text, "fileformat")->value, "ASCII") == 0) {
+    const bool bits = strcmp(factor->key, "bit2nm") == 0;
     h.lateral = h.lateral > 0 ? h.lateral : 1e-9;
-    const gboolean bits = factor != NULL && strcmp(factor->key, "bit2nm") == 0;
     h.factor = bits && h.vertical > 0 ? NAN : h.factor;
     h.vertical = bits && h.vertical == 0 ? 1e-9 : h.vertical;
   }
@@ -144,122 +132,101 @@ static Header header_of(const SbScanText *text) {
 
 // Metres per unit of a column by the header; 0 without.
 static double column_unit(const SbScanText *text, gsize column) {
-  return sb_scan_length(sb_text_table_column(text->table, column)->unit);
+  return sb_scan_length(text->table->column[column].unit);
 }
 
 // Units by precedence: the caller's, the file's, for lengths the caller's of heights. The caller's
 // unit is that of the numbers as written: it replaces the header's factor too, which a note states.
-// FALSE with an error where one is needed and nowhere.
-static gboolean find_units(Header *h, SbScan *out, const SbScanText *text,
-                           const SbScanChoices *choices, gboolean needs_lateral, GError **error) {
-  if (text->columns <= 3 && h->vertical == 0) {
-    h->vertical = column_unit(text, text->columns - 1);
-    h->lateral = h->lateral > 0 || text->columns == 1 ? h->lateral : column_unit(text, 0);
-    if (text->columns == 3 && column_unit(text, 1) != h->lateral && column_unit(text, 1) > 0) {
-      return sb_scan_fail(error, text->name, "x and y have different units");
+// False with an error where one is needed and nowhere.
+static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbScanChoices *choices,
+                       bool needs_lateral, GError **error) {
+  if (text->matrix.columns <= 3 && h->vertical == 0) {
+    h->vertical = column_unit(text, text->matrix.columns - 1);
+    h->lateral = h->lateral > 0 || text->matrix.columns == 1 ? h->lateral : column_unit(text, 0);
+    if (text->matrix.columns == 3 && column_unit(text, 1) != h->lateral &&
+        column_unit(text, 1) > 0) {
+      return sb_app_error_input(error, "x and y have different units");
     }
   }
   if (choices->unit > 0 && isfinite(h->factor)) {
-    g_ptr_array_add(out->notes,
-                    g_strdup_printf("the header's height factor %g is not used: the unit of the "
-                                    "heights was specified",
-                                    h->factor));
+    sb_note_add(out->notes,
+                "the header's height factor %g is not used: the unit of the heights was specified",
+                h->factor);
     h->factor = NAN;
   }
   h->vertical = choices->unit > 0 ? choices->unit : h->vertical;
   h->lateral = choices->lateral_unit > 0 ? choices->lateral_unit
                : h->lateral > 0          ? h->lateral
                                          : choices->unit;
-  if (h->vertical == 0) {
-    return sb_scan_fail(error, text->name,
-                        "does not state the unit of its heights: specify it with --unit");
-  }
-  if (needs_lateral && h->lateral == 0) {
-    return sb_scan_fail(error, text->name,
-                        "does not state the unit of its lengths: specify it with --lateral-unit");
+  if (h->vertical == 0 || (needs_lateral && h->lateral == 0)) {
+    return sb_app_error_input(error, "does not state the unit of its %s: specify it with --%s",
+                              h->vertical == 0 ? "heights" : "lengths",
+                              h->vertical == 0 ? "unit" : "lateral-unit");
   }
   if (isfinite(h->factor)) {
-    g_ptr_array_add(out->notes,
-                    g_strdup_printf("heights are multiplied by the header's factor %g", h->factor));
+    sb_note_add(out->notes, "heights are multiplied by the header's factor %g", h->factor);
     h->vertical *= h->factor;
   }
-  return TRUE;
+  return true;
 }
 
-static gboolean read_matrix(SbScan *out, SbScanText *text, const SbScanChoices *choices,
-                            GError **error) {
-  Header h = header_of(text);
-  const double *value = (const double *)(const void *)text->numbers->data;
-  const gboolean announced = h.columns >= 1 && h.rows >= 1;
-  if (announced && h.columns * h.rows != (double)text->numbers->len) {
-    return sb_scan_fail(error, text->name, "%u numbers where the header announces %.0f x %.0f",
-                        text->numbers->len, h.columns, h.rows);
-  }
-  if (!announced && text->ragged > 0) {
-    return sb_scan_fail(error, text->name,
-                        "line %d has not %" G_GSIZE_FORMAT " numbers as the first", text->ragged,
-                        text->columns);
-  }
-  if (!find_units(&h, out, text, choices, h.bare && !(choices->spacing > 0), error) ||
-      !sb_scan_allocate(out, announced ? (guint64)h.columns : text->columns,
-                        announced ? (guint64)h.rows : text->rows, text->name, error)) {
-    return FALSE;
-  }
+static bool take_matrix(SbScan *out, const SbScanText *text, const Header *h, GError **error) {
+  const bool announced = h->columns >= 1 && h->rows >= 1;
   SbHeights *to = &out->heights;
+  if (!sb_scan_allocate(out, announced ? (guint64)h->columns : text->matrix.columns,
+                        announced ? (guint64)h->rows : text->matrix.rows, error)) {
+    return false;
+  }
   for (gsize i = 0; i < to->columns * to->rows; i++) {
-    to->z[i] = value[i] == h.missing ? NAN : value[i] * h.vertical;
+    to->z[i] = g_array_index(text->matrix.value, double, i) * h->vertical;
   }
-  const double lateral = h.bare ? h.lateral : 1;
-  to->dx = lateral * (isnan(h.step_x) ? h.width / (double)to->columns : h.step_x);
-  to->dy = lateral * (isnan(h.step_y) ? h.height / (double)to->rows : h.step_y);
-  if (!(to->dx > 0 && to->dy > 0) && !(choices->spacing > 0)) {
-    return sb_scan_fail(error, text->name,
-                        "does not state the distance of its points: specify it with --spacing");
-  }
-  return TRUE;
+  const double lateral = h->bare ? h->lateral : 1;
+  to->dx = lateral * (isnan(h->step_x) ? h->width / (double)to->columns : h->step_x);
+  to->dy = lateral * (isnan(h->step_y) ? h->height / (double)to->rows : h->step_y);
+  return true;
 }
 
-static gboolean read_text(SbScan *out, SbScanText *text, const SbScanChoices *choices,
-                          GError **error) {
-  const Header sizes = header_of(text);
-  const gboolean sized =
-      isfinite(sizes.columns) || (text->columns > 2 && (isfinite(sizes.width + sizes.height) ||
-                                                        isfinite(sizes.step_x + sizes.step_y)));
-  out->format = sized ? "text, a matrix with a header" : "text";
-  const SbScanEntry *title = find(text, "channel|title|kanal|canal|canale|titel|titre|titolo");
-  out->title = title != NULL ? g_strdup(title->value) : NULL;
-  const gboolean points =
-      !sized && text->columns == 3 && text->ragged == 0 && sb_scan_is_grid(text);
-  if (sized || (text->columns > 2 && !points)) {
-    return read_matrix(out, text, choices, error);
-  }
-  if (text->ragged > 0) {
-    return sb_scan_fail(error, text->name,
-                        "line %d has not %" G_GSIZE_FORMAT " numbers as the first", text->ragged,
-                        text->columns);
-  }
+static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
+                      GError **error) {
   Header h = header_of(text);
-  if (!find_units(&h, out, text, choices, text->columns > 1, error)) {
-    return FALSE;
+  const SbScanEntry *title = find(text, "channel|title|kanal|canal|canale|titel|titre|titolo");
+  const gsize columns = text->matrix.columns;
+  const bool sized =
+      isfinite(h.columns) ||
+      (columns > 2 && (isfinite(h.width + h.height) || isfinite(h.step_x + h.step_y)));
+  const bool points = !sized && columns == 3 && text->matrix.ragged == 0 && sb_scan_is_grid(text);
+  const bool matrix = sized || (columns > 2 && !points), spaced = choices->spacing > 0;
+  out->title = *title->key != '\0' ? g_strdup(title->value) : NULL;
+  out->format = sized          ? "text, a matrix with a header"
+                : matrix       ? "text"
+                : points       ? "text, x y z on a grid"
+                : columns == 2 ? "text, a profile x z"
+                               : "text, a profile";
+  if (matrix && h.columns >= 1 && h.rows >= 1) {
+    if (h.columns * h.rows != (double)text->matrix.value->len) {
+      return sb_app_error_input(error, "%u numbers where the header announces %.0f x %.0f",
+                                text->matrix.value->len, h.columns, h.rows);
+    }
+  } else if (text->matrix.ragged > 0) {
+    return sb_app_error_input(error, "line %d has not %" G_GSIZE_FORMAT " numbers as the first",
+                              text->matrix.ragged, columns);
   }
-  const double missing = h.missing;
-  for (gsize i = 0; i < text->rows; i++) {
-    double *z = &g_array_index(text->numbers, double, (i + 1) * text->columns - 1);
-    *z = *z == missing ? NAN : *z;
+  if (!find_units(&h, out, text, choices, matrix ? h.bare && !spaced : columns > 1, error)) {
+    return false;
   }
-  if (points) {
-    out->format = "text, x y z on a grid";
-    return sb_scan_grid(out, text, h.lateral, h.vertical, error);
+  const gsize step = matrix ? 1 : columns; // heights are in the last column
+  for (gsize i = step - 1; i < text->matrix.value->len; i += step) {
+    double *z = &g_array_index(text->matrix.value, double, i);
+    *z = *z == h.missing ? NAN : *z;
   }
-  out->format = text->columns == 2 ? "text, a profile x z" : "text, a profile";
-  if (!sb_scan_profile(out, text, h.lateral, h.vertical, error)) {
-    return FALSE;
+  if (!(matrix   ? take_matrix(out, text, &h, error)
+        : points ? sb_scan_grid(out, text, h.lateral, h.vertical, error)
+                 : sb_scan_profile(out, text, h.lateral, h.vertical, error))) {
+    return false;
   }
-  if (text->columns == 1 && !(choices->spacing > 0)) {
-    return sb_scan_fail(error, text->name,
-                        "does not state the distance of its points: specify it with --spacing");
-  }
-  return TRUE;
+  return spaced || (out->heights.dx > 0 && (!matrix || out->heights.dy > 0)) ||
+         sb_app_error_input(error,
+                            "does not state the distance of its points: specify it with --spacing");
 }
 
 // Numbers at the end of single precision mark void points.
@@ -271,35 +238,30 @@ static void drop_voids(GArray *numbers) {
   }
 }
 
-gboolean sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                            GError **error) {
+bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                        GError **error) {
   static const SbTextTableDialect wish = {.matrix = true};
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbTextTable) table =
-      sb_text_table_parse(bytes.at, (gsize)(bytes.end - bytes.at), &wish, bytes.name, issues);
-  SbTextTableMatrix matrix;
-  if (table == NULL || !sb_text_table_read_matrix(&matrix, table, SB_HEIGHTS_POINTS_MAX, issues)) {
+      sb_text_table_parse(bytes.at, (gsize)(bytes.end - bytes.at), &wish, "", issues);
+  SbScanText text = {.entries = g_ptr_array_new_with_free_func(entry_free), .table = table};
+  const bool read = table != NULL &&
+                    sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
+  if (!read) {
     const SbIssue *issue = issues->pdata[0];
+    g_ptr_array_unref(text.entries);
     return issue->line > 0
-               ? sb_scan_fail(error, bytes.name, "line %d: %s", issue->line, issue->text)
-               : sb_scan_fail(error, bytes.name,
-                              "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
-                              issue->text);
+               ? sb_app_error_input(error, "line %d: %s", issue->line, issue->text)
+               : sb_app_error_input(
+                     error, "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
+                     issue->text);
   }
-  SbScanText text = {.name = bytes.name,
-                     .entries = g_ptr_array_new_with_free_func(entry_free),
-                     .table = table,
-                     .numbers = matrix.value,
-                     .rows = matrix.rows,
-                     .columns = matrix.columns,
-                     .ragged = matrix.ragged};
-  drop_voids(text.numbers);
-  char *const *line = sb_text_table_header(table);
-  for (; *line != NULL && text.entries->len < ENTRIES_MAX; line++) {
-    take_entry(text.entries, *line, sb_text_table_dialect(table));
+  drop_voids(text.matrix.value);
+  for (char **line = table->header; *line != NULL && text.entries->len < ENTRIES_MAX; line++) {
+    take_entry(text.entries, *line, &table->dialect);
   }
-  const gboolean good = read_text(out, &text, choices, error);
+  const bool good = read_text(out, &text, choices, error);
   g_ptr_array_unref(text.entries);
-  g_array_unref(text.numbers);
+  g_array_unref(text.matrix.value);
   return good;
 }

@@ -15,30 +15,10 @@ enum { XML_MAX = 1 << 20 };
 
 // ---- main.xml ----
 
+// What main.xml holds.
 typedef struct {
-  const char *path; // of elements without name spaces, after the root
-  char *text;       // owned
-} Entry;
-
-enum {
-  FEATURE,
-  X_TYPE,
-  X_STEP,
-  Y_TYPE,
-  Y_STEP,
-  Z_TYPE,
-  Z_STEP,
-  COLUMNS,
-  ROWS,
-  LAYERS,
-  DATA,
-  VALID,
-  ENTRIES
-};
-
-typedef struct {
-  Entry entry[ENTRIES];
-  GString *path;
+  GString *path;     // of the element that is being read
+  GHashTable *texts; // path after the root, without name spaces, in lower case -> text
 } Main;
 
 // The name behind a name space's colon.
@@ -67,33 +47,22 @@ static void on_text(GMarkupParseContext *context, const char *text, gsize length
   Main *main = user;
   // Behind the root.
   const char *path = main->path->len > 0 ? strchr(main->path->str + 1, '/') : NULL;
-  for (int i = 0; path != NULL && i < ENTRIES; i++) {
-    Entry *entry = &main->entry[i];
-    if (g_ascii_strcasecmp(path + 1, entry->path) == 0 && entry->text == NULL) {
-      entry->text = g_strstrip(g_strndup(text, length));
-    }
+  g_autofree char *key = path != NULL ? g_ascii_strdown(path + 1, -1) : NULL;
+  if (key != NULL && !g_hash_table_contains(main->texts, key)) {
+    g_hash_table_insert(main->texts, g_steal_pointer(&key), g_strstrip(g_strndup(text, length)));
   }
 }
 
-static void main_clear(Main *main) {
-  for (int i = 0; i < ENTRIES; i++) {
-    g_free(main->entry[i].text);
-  }
-  g_string_free(main->path, TRUE);
+static const char *text_of(const Main *main, const char *path) {
+  const char *text = g_hash_table_lookup(main->texts, path);
+  return text != NULL ? text : "";
 }
 
-// Number of an entry; `missing` without one, NaN with another text.
-static double number(const Main *main, int entry, double missing) {
-  double value = NAN;
-  const char *text = main->entry[entry].text;
-  if (text == NULL || *text == '\0') {
-    return missing;
-  }
-  return sb_number_parse(&value, text) ? value : NAN;
-}
-
-static const char *text_of(const Main *main, int entry) {
-  return main->entry[entry].text != NULL ? main->entry[entry].text : "";
+// Number of an element; `missing` without one, NaN with another text.
+static double number(const Main *main, const char *path, double missing) {
+  double value = *text_of(main, path) == '\0' ? missing : NAN;
+  (void)sb_number_parse(&value, text_of(main, path));
+  return value;
 }
 
 // ---- The zip ----
@@ -126,193 +95,157 @@ static zip_int64_t find_member(zip_t *zip, const char *path) {
   return found;
 }
 
-// A member's bytes; NULL with an error. Deflate packs at most 1032 to one: more is announced by a
-// bomb alone.
-static guchar *member(zip_t *zip, const char *member_name, guint64 *size, guint64 most,
-                      const SbScanBytes *bytes, GError **error) {
+// A member's bytes and their number in *size; NULL with an error. Deflate packs at most 1032 to
+// one: more is announced by a bomb alone.
+static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most, guint64 packed,
+                      GError **error) {
   zip_stat_t about;
-  const guint64 length = (guint64)(bytes->end - bytes->at);
-  const zip_int64_t at = find_member(zip, member_name);
+  const zip_int64_t at = find_member(zip, name);
   if (at < 0 || zip_stat_index(zip, (zip_uint64_t)at, 0, &about) != 0 ||
       (about.valid & ZIP_STAT_SIZE) == 0) {
-    sb_scan_fail(error, bytes->name, "has no member \"%s\"", member_name);
+    sb_app_error_input(error, "has no member \"%s\"", name);
     return NULL;
   }
-  if (about.size > most || about.size / 1100 > length) {
-    sb_scan_fail(error, bytes->name,
-                 "\"%s\" is announced with %" G_GUINT64_FORMAT " bytes: too many", member_name,
-                 (guint64)about.size);
+  if (about.size > most || about.size / 1100 > packed) {
+    sb_app_error_input(error, "\"%s\" is announced with %" G_GUINT64_FORMAT " bytes: too many",
+                       name, (guint64)about.size);
     return NULL;
   }
-  guchar *out = g_try_malloc(about.size + 1);
+  guchar *out = g_try_malloc0(about.size + 1);
   zip_file_t *file = out != NULL ? zip_fopen_index(zip, (zip_uint64_t)at, 0) : NULL;
   const zip_int64_t got = file != NULL ? zip_fread(file, out, about.size) : -1;
   // The check sum is looked at when there is no more.
   char end;
-  const gboolean good = got >= 0 && (guint64)got == about.size && zip_fread(file, &end, 1) == 0;
+  if (got < 0 || (guint64)got != about.size || zip_fread(file, &end, 1) != 0) {
+    sb_app_error_input(error, "\"%s\" cannot be unpacked", name);
+    g_clear_pointer(&out, g_free);
+  }
   if (file != NULL) {
     zip_fclose(file);
   }
-  if (!good) {
-    sb_scan_fail(error, bytes->name, "\"%s\" cannot be unpacked", member_name);
-    g_clear_pointer(&out, g_free);
-    return NULL;
-  }
-  out[about.size] = '\0';
   *size = about.size;
   return out;
 }
 
-static gboolean read_main(Main *main, zip_t *zip, const SbScanBytes *bytes, GError **error) {
+static bool read_main(Main *main, zip_t *zip, guint64 packed, GError **error) {
   static const GMarkupParser parser = {on_start, on_end, on_text, NULL, NULL};
   guint64 size = 0;
-  g_autofree char *xml = (char *)member(zip, "main.xml", &size, XML_MAX, bytes, error);
+  g_autofree char *xml = (char *)member(zip, "main.xml", &size, XML_MAX, packed, error);
   if (xml == NULL) {
-    return FALSE;
+    return false;
   }
-  g_autofree char *utf8 = NULL;
   if (size >= 2 && (memcmp(xml, "\xff\xfe", 2) == 0 || memcmp(xml, "\xfe\xff", 2) == 0 ||
                     memcmp(xml, "<", 2) == 0 || memcmp(xml, "\0<", 2) == 0)) {
     const char *wide = xml[0] == '\0' ? "UTF-16BE" : xml[1] == '\0' ? "UTF-16LE" : "UTF-16";
-    gsize count = 0;
-    utf8 = g_convert(xml, (gssize)size, "UTF-8", wide, NULL, &count, NULL);
-    if (utf8 == NULL) {
-      return sb_scan_fail(error, bytes->name, "main.xml is not sound UTF-16");
+    g_autofree char *raw = xml;
+    xml = g_convert(raw, (gssize)size, "UTF-8", wide, NULL, &size, NULL);
+    if (xml == NULL) {
+      return sb_app_error_input(error, "main.xml is not sound UTF-16");
     }
-    size = count;
   }
-  const char *plain = utf8 != NULL ? utf8 : xml;
-  const guint64 mark = g_str_has_prefix(plain, "\xef\xbb\xbf") ? 3 : 0;
+  const guint64 mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
   g_autoptr(GMarkupParseContext) context =
       g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, main, NULL);
   g_autoptr(GError) problem = NULL;
-  if (!g_markup_parse_context_parse(context, plain + mark, (gssize)(size - mark), &problem) ||
-      !g_markup_parse_context_end_parse(context, &problem)) {
-    return sb_scan_fail(error, bytes->name, "main.xml: %s", problem->message);
-  }
-  return TRUE;
+  return (g_markup_parse_context_parse(context, xml + mark, (gssize)(size - mark), &problem) &&
+          g_markup_parse_context_end_parse(context, &problem)) ||
+         sb_app_error_input(error, "main.xml: %s", problem->message);
 }
 
-// Even steps from column to column: an incremental axis.
-static gboolean read_step(double *out, const Main *main, int type, const char *axis,
-                          const SbScanBytes *bytes, GError **error) {
-  *out = number(main, type + 1, NAN);
+// Even steps along an axis, 'x' or 'y': an incremental one.
+static bool read_step(double *out, const Main *main, char axis, GError **error) {
+  g_autofree char *type = g_strdup_printf("record1/axes/c%c/axistype", axis);
+  g_autofree char *step = g_strdup_printf("record1/axes/c%c/increment", axis);
+  *out = number(main, step, NAN);
   if (g_ascii_strcasecmp(text_of(main, type), "I") != 0) {
-    return sb_scan_fail(error, bytes->name,
-                        "%s is not an incremental axis: points at any place are "
-                        "not read",
-                        axis);
+    return sb_app_error_input(error,
+                              "C%c is not an incremental axis: points at any place are not read",
+                              g_ascii_toupper(axis));
   }
   return (isfinite(*out) && *out > 0) ||
-         sb_scan_fail(error, bytes->name, "%s has no increment above 0", axis);
+         sb_app_error_input(error, "C%c has no increment above 0", g_ascii_toupper(axis));
 }
 
-static gboolean read_points(SbScan *out, const Main *main, zip_t *zip, const SbScanBytes *bytes,
-                            GError **error) {
-  static const struct {
-    char type;
-    guint64 size;
-  } kinds[] = {{'I', 2}, {'L', 4}, {'F', 4}, {'D', 8}};
-  const char *name = bytes->name, *type = text_of(main, Z_TYPE);
-  const double columns = number(main, COLUMNS, NAN), rows = number(main, ROWS, 1);
-  gsize kind = 0;
-  while (kind < G_N_ELEMENTS(kinds) &&
-         (g_ascii_toupper(type[0]) != kinds[kind].type || type[1] != '\0')) {
-    kind++;
+static bool read_points(SbScan *out, const Main *main, zip_t *zip, guint64 packed, GError **error) {
+  static const char types[] = "ILFD";
+  static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
+  static const guint64 sizes[] = {2, 4, 4, 8};
+  const char *link = text_of(main, "record3/datalink/pointdatalink");
+  const char *feature = text_of(main, "record1/featuretype"),
+             *type = text_of(main, "record1/axes/cz/datatype");
+  const double columns = number(main, "record3/matrixdimension/sizex", NAN),
+               rows = number(main, "record3/matrixdimension/sizey", 1);
+  const double step = number(main, "record1/axes/cz/increment", 1);
+  if (g_ascii_strcasecmp(feature, "SUR") != 0 && g_ascii_strcasecmp(feature, "PRF") != 0) {
+    return sb_app_error_input(error, "has the feature type \"%s\" (allowed SUR, PRF)", feature);
   }
-  if (kind == G_N_ELEMENTS(kinds)) {
-    return sb_scan_fail(error, name, "CZ has the data type \"%s\" (allowed I, L, F, D)", type);
+  const char *known = strlen(type) == 1 ? strchr(types, g_ascii_toupper(*type)) : NULL;
+  if (known == NULL) {
+    return sb_app_error_input(error, "CZ has the data type \"%s\" (allowed I, L, F, D)", type);
   }
   if (!(columns >= 1 && rows >= 1 && columns * rows <= (double)SB_HEIGHTS_POINTS_MAX)) {
-    return sb_scan_fail(error, name, "has a matrix of \"%s\" x \"%s\" points",
-                        text_of(main, COLUMNS), text_of(main, ROWS));
+    return sb_app_error_input(error, "has a matrix of \"%s\" x \"%s\" points",
+                              text_of(main, "record3/matrixdimension/sizex"),
+                              text_of(main, "record3/matrixdimension/sizey"));
   }
-  if (number(main, LAYERS, 1) != 1) {
-    return sb_scan_fail(error, name, "has %s layers (allowed 1)", text_of(main, LAYERS));
+  if (number(main, "record3/matrixdimension/sizez", 1) != 1) {
+    return sb_app_error_input(error, "has %s layers (allowed 1)",
+                              text_of(main, "record3/matrixdimension/sizez"));
   }
-  if (*text_of(main, DATA) == '\0') {
-    return sb_scan_fail(error, name, "has its points in the XML or as a list, which is not read");
+  if (*link == '\0') {
+    return sb_app_error_input(error, "has its points in the XML or as a list, which is not read");
   }
-  const guint64 points = (guint64)columns * (guint64)rows, size = kinds[kind].size;
-  guint64 got = 0, valid_got = 0;
-  g_autofree guchar *data = member(zip, text_of(main, DATA), &got, points * size, bytes, error);
-  if (data == NULL) {
-    return FALSE;
-  }
-  if (got != points * size) {
-    return sb_scan_fail(error, name,
-                        "%" G_GUINT64_FORMAT " bytes of points where %.0f x %.0f of %d "
-                        "are announced",
-                        got, columns, rows, (int)size);
-  }
-  g_autofree guchar *valid = NULL;
-  if (*text_of(main, VALID) != '\0') {
-    valid = member(zip, text_of(main, VALID), &valid_got, points, bytes, error);
-    if (valid == NULL) {
-      return FALSE;
-    }
-    if (valid_got < (points + 7) / 8) {
-      return sb_scan_fail(error, name, "its valid points are cut short");
-    }
-  }
-  const double step = number(main, Z_STEP, 1);
   if (!isfinite(step) || step == 0) {
-    return sb_scan_fail(error, name, "CZ has the increment \"%s\"", text_of(main, Z_STEP));
+    return sb_app_error_input(error, "CZ has the increment \"%s\"",
+                              text_of(main, "record1/axes/cz/increment"));
   }
-  if (!sb_scan_allocate(out, (guint64)columns, (guint64)rows, name, error)) {
-    return FALSE;
+  const guint64 points = (guint64)columns * (guint64)rows, size = points * sizes[known - types];
+  guint64 got = 0, valid_got = 0;
+  g_autofree guchar *data = member(zip, link, &got, size, packed, error);
+  g_autofree guchar *valid = NULL;
+  if (data == NULL) {
+    return false;
   }
-  for (guint64 i = 0; i < points; i++) {
-    const guchar *p = data + size * i;
-    const double value = kinds[kind].type == 'I'   ? (double)(gint16)sb_scan_u16(p)
-                         : kinds[kind].type == 'L' ? (double)(gint32)sb_scan_u32(p)
-                         : kinds[kind].type == 'F' ? sb_scan_float(p)
-                                                   : sb_scan_double(p);
-    const gboolean there = valid == NULL || (valid[i / 8] >> (i % 8) & 1) != 0;
-    out->heights.z[i] = there ? step * value : NAN;
+  if (*text_of(main, "record3/datalink/validpointslink") != '\0') {
+    valid = member(zip, text_of(main, "record3/datalink/validpointslink"), &valid_got, points,
+                   packed, error);
+    if (valid == NULL || valid_got < (points + 7) / 8) {
+      return valid != NULL && sb_app_error_input(error, "its valid points are cut short");
+    }
   }
-  return TRUE;
+  if (!sb_scan_take_grid(out, (guint64)columns, (guint64)rows, kinds[known - types],
+                         (SbScanBytes){data, data + got}, step, NAN, error)) {
+    return false;
+  }
+  for (guint64 i = 0; valid != NULL && i < points; i++) {
+    out->heights.z[i] = (valid[i / 8] >> (i % 8) & 1) != 0 ? out->heights.z[i] : NAN;
+  }
+  return true;
 }
 
-gboolean sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                           GError **error) {
+bool sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                       GError **error) {
+  const guint64 packed = (guint64)(bytes.end - bytes.at);
   out->format = "X3P";
   zip_error_t problem;
   zip_error_init(&problem);
-  zip_source_t *source =
-      zip_source_buffer_create(bytes.at, (zip_uint64_t)(bytes.end - bytes.at), 0, &problem);
+  zip_source_t *source = zip_source_buffer_create(bytes.at, packed, 0, &problem);
   zip_t *zip = source != NULL ? zip_open_from_source(source, ZIP_RDONLY, &problem) : NULL;
-  if (zip == NULL) {
+  bool good = zip != NULL;
+  if (good) {
+    Main main = {g_string_new(NULL),
+                 g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free)};
+    SbHeights *h = &out->heights;
+    good = read_main(&main, zip, packed, error) && read_points(out, &main, zip, packed, error) &&
+           read_step(&h->dx, &main, 'x', error) &&
+           (h->rows == 1 || read_step(&h->dy, &main, 'y', error));
+    g_hash_table_unref(main.texts);
+    g_string_free(main.path, TRUE);
+    zip_discard(zip);
+  } else {
     zip_source_free(source);
-    sb_scan_fail(error, bytes.name, "is not a sound zip: %s", zip_error_strerror(&problem));
-    zip_error_fini(&problem);
-    return FALSE;
+    sb_app_error_input(error, "is not a sound zip: %s", zip_error_strerror(&problem));
   }
-  Main main = {.entry = {[FEATURE] = {"Record1/FeatureType", NULL},
-                         [X_TYPE] = {"Record1/Axes/CX/AxisType", NULL},
-                         [X_STEP] = {"Record1/Axes/CX/Increment", NULL},
-                         [Y_TYPE] = {"Record1/Axes/CY/AxisType", NULL},
-                         [Y_STEP] = {"Record1/Axes/CY/Increment", NULL},
-                         [Z_TYPE] = {"Record1/Axes/CZ/DataType", NULL},
-                         [Z_STEP] = {"Record1/Axes/CZ/Increment", NULL},
-                         [COLUMNS] = {"Record3/MatrixDimension/SizeX", NULL},
-                         [ROWS] = {"Record3/MatrixDimension/SizeY", NULL},
-                         [LAYERS] = {"Record3/MatrixDimension/SizeZ", NULL},
-                         [DATA] = {"Record3/DataLink/PointDataLink", NULL},
-                         [VALID] = {"Record3/DataLink/ValidPointsLink", NULL}},
-               .path = g_string_new(NULL)};
-  gboolean good = read_main(&main, zip, &bytes, error);
-  const char *feature = text_of(&main, FEATURE);
-  if (good && g_ascii_strcasecmp(feature, "SUR") != 0 && g_ascii_strcasecmp(feature, "PRF") != 0) {
-    good =
-        sb_scan_fail(error, bytes.name, "has the feature type \"%s\" (allowed SUR, PRF)", feature);
-  }
-  good =
-      good && read_points(out, &main, zip, &bytes, error) &&
-      read_step(&out->heights.dx, &main, X_TYPE, "CX", &bytes, error) &&
-      (out->heights.rows == 1 || read_step(&out->heights.dy, &main, Y_TYPE, "CY", &bytes, error));
-  main_clear(&main);
-  zip_discard(zip);
   zip_error_fini(&problem);
   return good;
 }

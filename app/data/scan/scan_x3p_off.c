@@ -1,9 +1,8 @@
 // In place of scan_x3p.c where libzip was not there at the build.
 #include "app/data/scan/scan_private.h"
 
-gboolean sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                           GError **error) {
-  return sb_scan_fail(error, bytes.name,
-                      "is a zip (X3P), and this build of Sealbench does not read those (Meson's "
-                      "option `x3p`: libzip)");
+bool sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                       GError **error) {
+  return sb_app_error_input(error, "is a zip (X3P), and this build of Sealbench does not read "
+                                   "those (Meson's option `x3p`: libzip)");
 }
