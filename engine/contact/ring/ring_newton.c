@@ -51,6 +51,10 @@ enum { REPEATS_MAX = 6 };
 static const double FALLS = 0.5, BENDS = 1e-7;
 enum { ROUND_MAX = 4 };
 
+// A damped solve instead takes half of a step of constant contact, up to so many times, while it
+// does not reduce the residual.
+enum { BACKS_MAX = 5 };
+
 // Returns whether something supports the ring axially.
 static bool leans(const SbRingContact *contact) {
   for (int i = 0; i < contact->count; i++) {
@@ -156,11 +160,19 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
   return status;
 }
 
+// Returns to the state before the last step and takes half of that step.
+static void take_half(SbRing *ring, double *step, double friction, double change) {
+  sb_ring_fem_restore(ring->fem, 0);
+  *step *= 0.5;
+  sb_ring_fem_advance(ring->fem, *step);
+  ring->contact->is.now.friction_bore = friction + *step * change;
+}
+
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   const int iterations_max = path == SB_RING_SEALED ? SEALED_ITERATIONS : ITERATIONS_MAX;
   SbRingContact *contact = ring->contact;
   SbRingFem *fem = ring->fem;
-  int changes = 0, stumbles = 0, recentres = 0, repeats = 0, rounds = 0;
+  int changes = 0, stumbles = 0, recentres = 0, repeats = 0, rounds = 0, backs = 0;
   double last = INFINITY, least = INFINITY;
   bool slack = false;
   unsigned folded = contact->folds;
@@ -182,10 +194,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
       if (good && fem->det_min >= DET_SHARE * det_before) {
         break;
       }
-      sb_ring_fem_restore(fem, 0);
-      step *= 0.5;
-      sb_ring_fem_advance(fem, step);
-      contact->is.now.friction_bore = friction + step * change;
+      take_half(ring, &step, friction, change);
       good = sb_ring_fem_assemble(fem);
       changes++;
     }
@@ -196,6 +205,15 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     contact->stuck = contact->fixed && contact->carried && it < STUCK;
     double gap = sb_ring_contact_apply(contact);
     double residual = sb_ring_fem_free_residual(fem) / contact->force_scale;
+    // The first step leaves the balance of the state before.
+    if (ring->damped && it > 1 && changes == 0 && !slack && !contact->fixed && residual > BENDS &&
+        residual > last && backs < BACKS_MAX) {
+      take_half(ring, &step, friction, change);
+      backs++;
+      it--;
+      continue;
+    }
+    backs = 0;
     if (it > 0 && changes == 0 && !slack && !contact->fixed && residual <= tolerance &&
         gap <= tolerance && fabs(off_path(ring)) <= PATH_TOLERANCE) {
       slack = recentres++ < RECENTRES_MAX && recentre(fem, contact->force_scale);
@@ -211,7 +229,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     repeats = changes > 0 && fabs(residual - last) < SAME * last ? repeats + 1 : 0;
     const bool folds = contact->folds != folded;
     folded = contact->folds;
-    const bool falls = changes > 0 || folds || contact->fixed || residual < FALLS * least;
+    const bool falls = changes > 0 || folds || contact->fixed || residual < FALLS * least ||
+                       (ring->damped && it <= 1);
     rounds = falls ? 0 : rounds + 1;
     least = falls ? residual : least;
     last = residual;
@@ -219,8 +238,8 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     bool near = changes == 0 && residual < NEARLY && it < iterations_max + MORE;
     bool spent = (it >= iterations_max && !near) ||
                  (path == SB_RING_DIRECT && it >= FAR_AFTER && residual > FAR);
-    if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX || rounds > ROUND_MAX ||
-        !isfinite(residual)) {
+    if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX ||
+        (rounds > ROUND_MAX && !ring->damped) || !isfinite(residual)) {
       fail(contact, residual, changes, it, report);
       if (report != NULL) {
         report->residual = residual;
@@ -237,7 +256,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
     double length = largest(fem->du, 2 * fem->mesh->nodes);
     step = length > CORRECTION_MAX ? CORRECTION_MAX / length : 1.0;
     step = fmin(step, sb_ring_contact_limit(contact));
-    step *= ring->options.quick && rounds > 0 && residual > BENDS ? 0.5 : 1.0;
+    step *= ring->options.quick && !ring->damped && rounds > 0 && residual > BENDS ? 0.5 : 1.0;
     sb_ring_fem_save(fem, 0);
     sb_ring_fem_advance(fem, step);
     contact->is.now.friction_bore = friction + step * change;

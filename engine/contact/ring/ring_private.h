@@ -62,6 +62,7 @@ struct SbRing {
   SbRingArc arc;
   bool at_once; // a transfer to another mesh must succeed in one step, with its slip states
   bool passing; // nodes whose state oscillates stay in contact against a small tension
+  bool damped;  // steps of constant contact that do not reduce the residual are shortened
   bool easy;    // path with softer friction under fluid and fewer meshes
   bool soft;    // fitted by such a path although floor and walls have friction
   double onset; // SbRingContact.onset
