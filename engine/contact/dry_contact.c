@@ -64,6 +64,32 @@ static double window_of(const SbSurfaceCompliance *c) {
   return 0.5 * (c->right - c->left);
 }
 
+// Writes the slope of the gap at `at`: known, and by each coefficient, without that coefficient's
+// own polynomial.
+static void slope_row(double here[COUNT + 1], const SbSurfaceCompliance *c, const SbDryContact *d,
+                      const Moments *m, double at) {
+  const double half = 0.5 * (d->right - d->left);
+  double slope, value[SB_COMPLIANCE_MODES], derivative[SB_COMPLIANCE_MODES];
+  double by_moment[SB_COMPLIANCE_MODES] = {0.0};
+  sb_compliance_gap(c, at, &slope);
+  slope += sb_compliance_half_plane(c) * (d->pressure_left - d->pressure_right) *
+           log(half / window_of(c));
+  sb_compliance_modes(c, at, value, derivative);
+  for (int k = 0; k < c->modes; k++) {
+    for (int l = 0; l < c->modes; l++) {
+      by_moment[l] += derivative[k] * c->smooth[k][l];
+    }
+  }
+  here[0] = slope;
+  memset(&here[1], 0, COUNT * sizeof *here);
+  for (int l = 0; l < c->modes; l++) {
+    here[0] += by_moment[l] * m->known[l];
+    for (int k = 0; k < COUNT; k++) {
+      here[k + 1] += by_moment[l] * m->basis[k][l];
+    }
+  }
+}
+
 // For given edges the slope of the gap is 0 at COUNT + 1 points z = cos(angle). Its components T_1
 // to T_COUNT give the coefficients; T_0 and the load are the residuals of the edges.
 static bool edge_residuals(double *r, const double *x, void *context) {
@@ -85,27 +111,11 @@ static bool edge_residuals(double *r, const double *x, void *context) {
   double row[COUNT + 1][COUNT + 1] = {{0.0}};
   for (int i = 0; i <= COUNT; i++) {
     const double angle = M_PI * (i + 0.5) / (COUNT + 1), at = middle + half * cos(angle);
-    double slope, value[SB_COMPLIANCE_MODES], derivative[SB_COMPLIANCE_MODES];
-    double by_moment[SB_COMPLIANCE_MODES] = {0.0}, here[COUNT + 1], wave[COUNT + 1];
+    double here[COUNT + 1], wave[COUNT + 1];
     for (int n = 0; n <= COUNT; n++) {
       wave[n] = cos(n * angle);
     }
-    sb_compliance_gap(c, at, &slope);
-    slope += C * (d->pressure_left - d->pressure_right) * log(half / window);
-    sb_compliance_modes(c, at, value, derivative);
-    for (int k = 0; k < c->modes; k++) {
-      for (int l = 0; l < c->modes; l++) {
-        by_moment[l] += derivative[k] * c->smooth[k][l];
-      }
-    }
-    here[0] = slope;
-    memset(&here[1], 0, sizeof here - sizeof here[0]);
-    for (int l = 0; l < c->modes; l++) {
-      here[0] += by_moment[l] * m.known[l];
-      for (int k = 0; k < COUNT; k++) {
-        here[k + 1] += by_moment[l] * m.basis[k][l];
-      }
-    }
+    slope_row(here, c, d, &m, at);
     for (int k = 0; k <= COUNT; k++) {
       here[k] = here[k] / (C * M_PI * (k == 0 ? unit : 1.0)) - (k == 0 ? 0.0 : wave[k]);
       for (int n = 0; n <= COUNT; n++) {

@@ -202,10 +202,8 @@ static SbStatus between_walls(SbRing **ring, SbRingResult *result, const SbRingB
   return status;
 }
 
-SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
-  SbRingBody body;
-  SbRingLoad load;
-  sb_fit_ring_problem(&body, &load, in);
+// Returns the options of a solve.
+static SbRingOptions options_of(const SbFitProblem *in) {
   const double wanted = in->tolerance > 0.0 ? in->tolerance : 1e-3;
   // A film depends on the root of the pressure at the contact's ends, which scatters with the mesh
   // about ten times as much as the load. The load of a dragged ring is only as accurate as its
@@ -217,44 +215,62 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const bool third = in->dragged || (wanted >= ENOUGH && in->floor_friction > 0.0);
   const double finer = !in->surface_wanted ? 1.0 : third ? 0.35 : 0.1;
   const double aim = path ? fmax(wanted, PATH_AIM) : finer * wanted;
-  const SbRingOptions options = {.tolerance = fmin(0.1, fmax(1e-5, aim)),
-                                 .wanted = path ? fmax(wanted, PATH_WANTED) : wanted,
-                                 .poll = in->cancel,
-                                 .poll_data = in->cancel_data};
-  SbRing *ring = NULL;
-  SbRingResult result;
+  return (SbRingOptions){.tolerance = fmin(0.1, fmax(1e-5, aim)),
+                         .wanted = path ? fmax(wanted, PATH_WANTED) : wanted,
+                         .poll = in->cancel,
+                         .poll_data = in->cancel_data};
+}
+
+// Solves a ring from its start, or if it has none or that fails along the path of a cold ring.
+// *large: on a mesh of large elements.
+static SbStatus solve_ring(SbRing **ring, SbRingResult *result, bool *large, const SbFitProblem *in,
+                           const SbRingBody *body, const SbRingLoad *load,
+                           const SbRingOptions *options, SbWarnings *warnings, SbReport *report) {
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   const bool tangent = in->start != NULL && in->start->tangent != NULL;
   if (tangent) {
     status = (in->start->beside ? sb_ring_tangent_solve : sb_ring_tangent_at)(
-        &ring, in->start->tangent, &body, &load, &options, report);
+        ring, in->start->tangent, body, load, options, report);
   } else if (in->start != NULL && (in->dragged || in->tolerance < ENOUGH)) {
-    status = sb_ring_near(&ring, in->start->ring, in->start->guide, &body, &load, &options, NULL);
+    status = sb_ring_near(ring, in->start->ring, in->start->guide, body, load, options, NULL);
   }
   if (status == SB_OK) {
-    sb_ring_result(ring, &result);
-    const double led = path && !tangent && takes_large(in) ? LED : 0.0;
-    result.error.load = fmax(in->start->error_load, led);
-    result.error.peak = in->start->error_peak;
-    result.error.width = in->start->error_width;
+    sb_ring_result(*ring, result);
+    const double led = keeps_path(in) && !tangent && takes_large(in) ? LED : 0.0;
+    result->error.load = fmax(in->start->error_load, led);
+    result->error.peak = in->start->error_peak;
+    result->error.width = in->start->error_width;
   }
-  bool large = takes_large(in);
+  *large = takes_large(in);
   if (status == SB_ERROR_NOT_CONVERGED && !tangent) {
-    SbRingOptions cold = options;
-    cold.element_size = large ? SB_RING_LARGE : 0.0;
-    cold.quick = large;
-    status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, report);
-    if (status == SB_ERROR_NOT_CONVERGED && in->dragged && !large) {
+    SbRingOptions cold = *options;
+    cold.element_size = *large ? SB_RING_LARGE : 0.0;
+    cold.quick = *large;
+    status = sb_ring_fit(ring, result, body, load, &cold, warnings, report);
+    if (status == SB_ERROR_NOT_CONVERGED && in->dragged && !*large) {
       // Single nodes end a path, and others make another mesh's.
       SbReport own = {0};
-      large = true;
+      *large = true;
       cold.element_size = SB_RING_LARGE;
-      status = sb_ring_fit(&ring, &result, &body, &load, &cold, &out->warnings, &own);
+      status = sb_ring_fit(ring, result, body, load, &cold, warnings, &own);
       if (status != SB_ERROR_NOT_CONVERGED && report != NULL) {
         *report = own; // else the error of the first path is reported
       }
     }
   }
+  return status;
+}
+
+SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report) {
+  SbRingBody body;
+  SbRingLoad load;
+  sb_fit_ring_problem(&body, &load, in);
+  const SbRingOptions options = options_of(in);
+  SbRing *ring = NULL;
+  SbRingResult result;
+  bool large;
+  SbStatus status =
+      solve_ring(&ring, &result, &large, in, &body, &load, &options, &out->warnings, report);
   if (status == SB_OK && loses_wall(&load, in, &result)) {
     large = false;
     status = between_walls(&ring, &result, &body, &load, &options, in, out, report);

@@ -156,18 +156,8 @@ SbBand sb_band_of(double value, double low, double high) {
                                              : SB_BAND_WITHIN;
 }
 
-SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *report) {
-  static const SbGlandReadout list[SB_GLAND_COUNT] = {
-#define ENTRY(code, text, of_unit, low, high, of_band)                                             \
-  [code] = {.name = text,                                                                          \
-            .unit = of_unit,                                                                       \
-            .source = of_band,                                                                     \
-            .why = "",                                                                             \
-            .band_low = (low) < 0.0 ? -INFINITY : (low),                                           \
-            .band_high = (high) > 1e3 ? INFINITY : (high)},
-      SB_GLAND_LIST(ENTRY)
-#undef ENTRY
-  };
+// Checks that the sizes are possible with their tolerances.
+static SbStatus check_sizes(const SbGland *gland, SbReport *report) {
   for (int i = 0; i < SIZES; i++) {
     const double size = number(gland, SIZE[i].value), wide = number(gland, SIZE[i].tolerance);
     if (!(size > 0.0 && isfinite(size) && wide >= 0.0 && wide < size)) {
@@ -186,6 +176,42 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_BORE_DIAMETER,
                          "with its tolerances the bore leaves no stem inside the radial space");
   }
+  return SB_OK;
+}
+
+// Sets the ranges of statistical tolerances: the root sum of squares of each tolerance alone.
+static void add_squares(SbGlandReadout *out, const SbGland *gland) {
+  double square[SB_GLAND_COUNT] = {0.0};
+  for (int i = 0; i < SIZES; i++) {
+    double high[SB_GLAND_COUNT], low[SB_GLAND_COUNT];
+    evaluate_moved(high, gland, 1 << i, 0);
+    evaluate_moved(low, gland, 0, 1 << i);
+    for (int k = 0; k < SB_GLAND_COUNT; k++) {
+      square[k] += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
+    }
+  }
+  for (int k = 0; k < SB_GLAND_COUNT; k++) {
+    out[k].rss_low = out[k].nominal - sqrt(square[k]);
+    out[k].rss_high = out[k].nominal + sqrt(square[k]);
+  }
+}
+
+SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *report) {
+  static const SbGlandReadout list[SB_GLAND_COUNT] = {
+#define ENTRY(code, text, of_unit, low, high, of_band)                                             \
+  [code] = {.name = text,                                                                          \
+            .unit = of_unit,                                                                       \
+            .source = of_band,                                                                     \
+            .why = "",                                                                             \
+            .band_low = (low) < 0.0 ? -INFINITY : (low),                                           \
+            .band_high = (high) > 1e3 ? INFINITY : (high)},
+      SB_GLAND_LIST(ENTRY)
+#undef ENTRY
+  };
+  SbStatus status = check_sizes(gland, report);
+  if (status != SB_OK) {
+    return status;
+  }
 
   // Nominal, and each corner of the tolerances: the read-outs are monotonic in every size.
   double value[SB_GLAND_COUNT];
@@ -203,20 +229,9 @@ SbStatus sb_gland_readouts(SbGlandReadout *out, const SbGland *gland, SbReport *
     }
   }
 
-  // Root sum of squares of each tolerance alone.
-  double square[SB_GLAND_COUNT] = {0.0};
-  for (int i = 0; i < SIZES; i++) {
-    double high[SB_GLAND_COUNT], low[SB_GLAND_COUNT];
-    evaluate_moved(high, gland, 1 << i, 0);
-    evaluate_moved(low, gland, 0, 1 << i);
-    for (int k = 0; k < SB_GLAND_COUNT; k++) {
-      square[k] += 0.25 * (high[k] - low[k]) * (high[k] - low[k]);
-    }
-  }
+  add_squares(out, gland);
   for (int k = 0; k < SB_GLAND_COUNT; k++) {
     SbGlandReadout *r = &out[k];
-    r->rss_low = r->nominal - sqrt(square[k]);
-    r->rss_high = r->nominal + sqrt(square[k]);
     if (r->source[0] == '\0') {
       continue;
     }

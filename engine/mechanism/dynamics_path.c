@@ -251,14 +251,9 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
 // distance from there. Steps are made slightly too long, so that the event is inside them.
 static const double near_end = 1e-4, overshoot = 1e-5;
 
-// Steps with error control. A step that an event ends is repeated so that it ends there: the event
-// is then as accurate as the solution, not as its dense output, and the error of the step is that
-// up to the event (loads may have a kink behind it).
-static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, SbReport *report) {
-  double noise, speed;
-  set_system(s, p, &noise, &speed);
-  double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.05 / quickest : 1e-5;
-  double left = fmin(s->piece.until - s->t, horizon_max), h = s->h > 0.0 ? s->h : first;
+// Returns the length of the next step [s]. `first`: of a step after which nothing is known.
+static double first_length(const SbDynamics *s, const Point *p, double first) {
+  double h = s->h > 0.0 ? s->h : first;
   if (s->piece.curved) {
     h = fmin(h, s->piece.step);
   }
@@ -266,7 +261,36 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
     // What grows a longer step would damp (L-stability), to a solution that is none.
     h = fmin(h, s->mass / -p->sum.c);
   }
-  h = fmax(h, 8.0 * DBL_EPSILON * s->t); // the time resolves no less
+  return fmax(h, 8.0 * DBL_EPSILON * s->t); // the time resolves no less
+}
+
+// Returns where a step of the length h that lands on the event *landing meets it [s]. Past an edge
+// the loads have a corner, and the longer step's dense output was off: there may be no such event
+// as yet, or another one before it. Then changes *landing, and resets *landings.
+static double land(SbDynamics *s, double h, const Live *live, int *landing, int *landings) {
+  const double at = place_of(s, *landing, h);
+  double before;
+  const int other = first_event(s, h, live, &before);
+  if (other == EVENT_NONE && at >= (1.0 + LANDS) * h) {
+    *landing = EVENT_NONE;
+    return h;
+  }
+  if (other != EVENT_NONE && other != *landing && before < (1.0 - near_end) * fmin(at, h)) {
+    *landing = other;
+    *landings = 0;
+    return before;
+  }
+  return at;
+}
+
+// Steps with error control. A step that an event ends is repeated so that it ends there: the event
+// is then as accurate as the solution, not as its dense output, and the error of the step is that
+// up to the event (loads may have a kink behind it).
+static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, SbReport *report) {
+  double noise, speed;
+  set_system(s, p, &noise, &speed);
+  double quickest = quickest_rate(s, p), first = quickest > 0.0 ? 0.05 / quickest : 1e-5;
+  double left = fmin(s->piece.until - s->t, horizon_max), h = first_length(s, p, first);
   double z[SB_RADAU_MAX];
   for (size_t i = 0; i < s->system.n; i++) {
     z[i] = s->at.z[s->unknown[i]];
@@ -300,20 +324,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       landing = first_event(s, h, live, &at);
       landings = 0;
     } else {
-      at = place_of(s, landing, h);
-      // Past an edge the loads have a corner, and the longer step's dense output was off: there may
-      // be no such event as yet, or another one before it.
-      double before;
-      const int other = first_event(s, h, live, &before);
-      if (other == EVENT_NONE && at >= (1.0 + LANDS) * h) {
-        landing = EVENT_NONE;
-        at = h;
-      } else if (other != EVENT_NONE && other != landing &&
-                 before < (1.0 - near_end) * fmin(at, h)) {
-        landing = other;
-        landings = 0;
-        at = before;
-      }
+      at = land(s, h, live, &landing, &landings);
     }
     if (landing != EVENT_NONE && (s->t + at <= s->t || at < 1e-14 * h)) {
       at = s->step[0].h = s->step[1].h = 0.0; // immediately
@@ -322,8 +333,7 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       landings++;
       continue;
     }
-    bool last = at >= left && isfinite(s->piece.until);
-    s->t_end = last ? s->piece.until : s->t + at;
+    s->t_end = at >= left && isfinite(s->piece.until) ? s->piece.until : s->t + at;
     s->event = landing == EVENT_NONE ? EVENT_BREAK : landing;
     s->counters.steps++;
     s->counters.local_error += s->held ? 0.0 : local[0] / (fabs(s->at.x) + place_size);

@@ -271,36 +271,49 @@ static double trend_clear(const SbEventFunction *g, const SbOscillator *o, doubl
   return rate >= 0.0 ? INFINITY : fmax(tau, (1.0 - 8.0 * DBL_EPSILON) * (level / -rate));
 }
 
-double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon,
-                      bool *found) {
-  double tau = 0.0, window = horizon, curvature, swing;
-  Look now = look(g, o, 0.0);
-  *found = true;
+// Decides about an event that is met at the start, *now. Returns whether it happens there. Else
+// writes the time up to which nothing can happen, and its *now.
+static bool happens_first(double *tau, Look *now, const SbEventFunction *g, const SbOscillator *o,
+                          double horizon) {
+  double curvature, swing;
+  *tau = 0.0;
   // Already past it: something jumped.
-  if (now.value < -64.0 * now.tiny) {
-    return 0.0;
+  if (now->value < -64.0 * now->tiny) {
+    return true;
+  }
+  if (now->value > now->tiny) {
+    return false;
   }
   // At the limit from the start: its direction decides.
-  if (now.value <= now.tiny) {
-    bounds(g, o, &now, horizon, &curvature, &swing);
-    double lift = curvature > 0.0 ? 2.0 * fabs(now.rate) / curvature : horizon;
-    if (now.rate < 0.0 && -now.rate * lift > 16.0 * now.tiny) {
-      return 0.0;
+  bounds(g, o, now, horizon, &curvature, &swing);
+  double lift = curvature > 0.0 ? 2.0 * fabs(now->rate) / curvature : horizon;
+  if (now->rate < 0.0 && -now->rate * lift > 16.0 * now->tiny) {
+    return true;
+  }
+  if (now->rate * lift > 16.0 * now->tiny) {
+    // Rising: nothing can happen before curvature has bent it back.
+    *tau = fmin(0.999 * lift, horizon);
+    return false;
+  }
+  // Flat to rounding: probe ahead, wider and wider, until the sign shows.
+  double step = fmax(fmin(horizon * 1e-15, 1e-9 / o->omega), 1e-300);
+  for (; *tau < horizon && now->value <= 16.0 * now->tiny; step *= 4.0) {
+    *tau = fmin(step, horizon);
+    *now = look(g, o, *tau);
+    if (*tau < horizon && now->value < -16.0 * now->tiny) {
+      return true;
     }
-    if (now.rate * lift > 16.0 * now.tiny) {
-      // Rising: nothing can happen before curvature has bent it back.
-      tau = fmin(0.999 * lift, horizon);
-    } else {
-      // Flat to rounding: probe ahead, wider and wider, until the sign shows.
-      double step = fmax(fmin(horizon * 1e-15, 1e-9 / o->omega), 1e-300);
-      for (; tau < horizon && now.value <= 16.0 * now.tiny; step *= 4.0) {
-        tau = fmin(step, horizon);
-        now = look(g, o, tau);
-        if (tau < horizon && now.value < -16.0 * now.tiny) {
-          return 0.0;
-        }
-      }
-    }
+  }
+  return false;
+}
+
+double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon,
+                      bool *found) {
+  double tau, window = horizon, curvature, swing;
+  Look now = look(g, o, 0.0);
+  *found = true;
+  if (happens_first(&tau, &now, g, o, horizon)) {
+    return 0.0;
   }
   for (int i = 0; i < 200000 && tau < horizon; i++) {
     now = now.at.tau == tau ? now : look(g, o, tau);

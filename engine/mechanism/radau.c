@@ -83,6 +83,22 @@ static bool prepare(Factors *f, size_t n, double h, double j[N][N]) {
   return sb_lu_factor(f->m, f->pivot, f->size);
 }
 
+// Writes the residuals of the stage rates, and the rates of the powers if they are `wanted`.
+static void stage_residuals(double *residual, SbRadauStep *step, const SbRadauSystem *s, double t,
+                            const double *z, double h, bool wanted) {
+  for (size_t a = 0; a < S; a++) {
+    double at[N] = {0}, dz[N];
+    for (size_t i = 0; i < s->n; i++) {
+      at[i] = z[i] + h * (butcher[a][0] * step->k[0][i] + butcher[a][1] * step->k[1][i] +
+                          butcher[a][2] * step->k[2][i]);
+    }
+    s->rates(dz, wanted ? step->q[a] : NULL, t + node[a] * h, at, s->user);
+    for (size_t i = 0; i < s->n; i++) {
+      residual[a * s->n + i] = dz[i] - step->k[a][i];
+    }
+  }
+}
+
 // The stage rates in `step` are where the iteration starts; `f` is prepared for h. The powers are
 // taken, if they are `wanted`, one update before the rates: that update must then be small, else
 // what is left after it.
@@ -100,17 +116,7 @@ static bool solve(SbRadauStep *step, const SbRadauSystem *s, double t, const dou
   const bool noisy = s->noisy && noise > 0.0;
   for (int iteration = 0; iteration < ITERATIONS; iteration++) {
     double residual[UNKNOWNS];
-    for (size_t a = 0; a < S; a++) {
-      double at[N] = {0}, dz[N];
-      for (size_t i = 0; i < s->n; i++) {
-        at[i] = z[i] + h * (butcher[a][0] * step->k[0][i] + butcher[a][1] * step->k[1][i] +
-                            butcher[a][2] * step->k[2][i]);
-      }
-      s->rates(dz, wanted ? step->q[a] : NULL, t + node[a] * h, at, s->user);
-      for (size_t i = 0; i < s->n; i++) {
-        residual[a * s->n + i] = dz[i] - step->k[a][i];
-      }
-    }
+    stage_residuals(residual, step, s, t, z, h, wanted);
     ++*iterations;
     sb_lu_solve(f->m, f->pivot, residual, f->size);
     double size = 0.0;

@@ -145,22 +145,17 @@ static SbStatus check_crossing(const double *vertices, const unsigned *triangles
   return status;
 }
 
-SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
-                       const unsigned *triangles, size_t triangle_count, double density,
-                       SbReport *report) {
-  if (!(density > 0.0) || !isfinite(density)) {
-    return sb_fail(report, SB_ERROR_RANGE, "the density must be above 0, not %g kg/m3", density);
-  }
-  if (triangle_count < 4 || vertex_count < 4 || triangle_count > (size_t)1 << 26) {
-    return sb_fail(report, SB_ERROR_INPUT, "a closed mesh needs at least four triangles");
-  }
-  double origin[3], extent = 0.0;
-  memcpy(origin, vertices, sizeof origin);
+// Checks that all vertices are numbers and all triangles have three of them, and that each edge has
+// two triangles. Writes the largest distance along an axis from the first vertex.
+static SbStatus check_mesh(double *extent, const double *vertices, size_t vertex_count,
+                           const unsigned *triangles, size_t triangle_count, SbReport *report) {
+  const double *origin = vertices;
+  *extent = 0.0;
   for (size_t i = 0; i < 3 * vertex_count; i++) {
     if (!isfinite(vertices[i])) {
       return sb_fail(report, SB_ERROR_INPUT, "vertex %zu of the mesh is not a number", i / 3);
     }
-    extent = fmax(extent, fabs(vertices[i] - origin[i % 3]));
+    *extent = fmax(*extent, fabs(vertices[i] - origin[i % 3]));
   }
   for (size_t t = 0; t < triangle_count; t++) {
     const unsigned *v = triangles + 3 * t;
@@ -171,13 +166,19 @@ SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_cou
       return sb_fail(report, SB_ERROR_INPUT, "triangle %zu has two equal corners", t);
     }
   }
-  SbStatus status = check_edges(triangles, triangle_count, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  // Sums over tetrahedra (origin, a, b, c): volume, centre, and second moments
-  // integral of x_k x_l = V/20 (sum over pairs of corners x_k x_l + sum x_k sum x_l).
-  double six = 0.0, first[3] = {0}, second[3][3] = {{0}};
+  return check_edges(triangles, triangle_count, report);
+}
+
+// Sums over tetrahedra (first vertex, a, b, c): volume, centre, and second moments
+// integral of x_k x_l = V/20 (sum over pairs of corners x_k x_l + sum x_k sum x_l).
+typedef struct {
+  double six, first[3], second[3][3];
+} Moments;
+
+static void sum_moments(Moments *out, const double *vertices, const unsigned *triangles,
+                        size_t triangle_count) {
+  const double *origin = vertices;
+  *out = (Moments){0};
   for (size_t t = 0; t < triangle_count; t++) {
     double p[3][3], n[3], sum[3];
     for (int i = 0; i < 3; i++) {
@@ -187,18 +188,37 @@ SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_cou
     }
     cross(n, p[0], p[1]);
     double v = dot(n, p[2]);
-    six += v;
+    out->six += v;
     for (int k = 0; k < 3; k++) {
       sum[k] = p[0][k] + p[1][k] + p[2][k];
-      first[k] += v * sum[k] / 4.0;
+      out->first[k] += v * sum[k] / 4.0;
     }
     for (int k = 0; k < 3; k++) {
       for (int l = 0; l < 3; l++) {
         double corners = p[0][k] * p[0][l] + p[1][k] * p[1][l] + p[2][k] * p[2][l];
-        second[k][l] += v / 20.0 * (corners + sum[k] * sum[l]);
+        out->second[k][l] += v / 20.0 * (corners + sum[k] * sum[l]);
       }
     }
   }
+}
+
+SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
+                       const unsigned *triangles, size_t triangle_count, double density,
+                       SbReport *report) {
+  if (!(density > 0.0) || !isfinite(density)) {
+    return sb_fail(report, SB_ERROR_RANGE, "the density must be above 0, not %g kg/m3", density);
+  }
+  if (triangle_count < 4 || vertex_count < 4 || triangle_count > (size_t)1 << 26) {
+    return sb_fail(report, SB_ERROR_INPUT, "a closed mesh needs at least four triangles");
+  }
+  double extent;
+  SbStatus status = check_mesh(&extent, vertices, vertex_count, triangles, triangle_count, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  Moments m;
+  sum_moments(&m, vertices, triangles, triangle_count);
+  const double six = m.six;
   if (!(fabs(six) > 1e-14 * extent * extent * extent)) {
     return sb_fail(report, SB_ERROR_INPUT, "the mesh encloses no volume");
   }
@@ -214,10 +234,10 @@ SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_cou
   *solid = (SbSolid){.volume = six / 6.0, .mass = density * six / 6.0};
   double trace = 0.0, about[3][3];
   for (int k = 0; k < 3; k++) {
-    double centre = first[k] / six;
-    solid->centre[k] = origin[k] + centre;
+    double centre = m.first[k] / six;
+    solid->centre[k] = vertices[k] + centre;
     for (int l = 0; l < 3; l++) {
-      about[k][l] = density / 6.0 * (second[k][l] - centre * first[l]);
+      about[k][l] = density / 6.0 * (m.second[k][l] - centre * m.first[l]);
     }
     trace += about[k][k];
   }

@@ -161,20 +161,10 @@ static double arrhenius(double energy, double temperature, double reference) {
   return exp(-energy / gas_constant * (1.0 / temperature - 1.0 / reference));
 }
 
-SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRubberStorage *storage,
-                         SbWarnings *warnings, SbReport *report) {
-  *out = (SbRubberState){0};
-  const SbRubber *r = rubber;
-  SbStatus status = check(r, storage, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  const double t = storage->storage_time;
-  const double temperature = storage->temperature;
-  const double reference = r->reference_temperature;
-  const double away = temperature - reference;
-
-  // Shift of the relaxation times.
+// Sets the shift of the relaxation times by the temperature of storage.
+static void shift_times(SbRubberState *out, const SbRubber *r, double temperature,
+                        SbWarnings *warnings) {
+  const double reference = r->reference_temperature, away = temperature - reference;
   out->shift = 1.0;
   if (r->shift == SB_SHIFT_WLF) {
     out->shift = pow(10.0, -r->wlf_c1 * away / (r->wlf_c2 + away));
@@ -185,8 +175,13 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
     sb_warn(warnings, "shift-range", SB_RUBBER_IN_TEMPERATURE,
             "%.0f K from the reference: the temperature shift is valid to about 100 K", away);
   }
+}
 
-  // Relaxation, and the remaining stress of the elements after release.
+// Sets relaxation, network and compression set, from the shift: relaxation, and the remaining
+// stress of the elements after release.
+static void age(SbRubberState *out, const SbRubber *r, const SbRubberStorage *storage,
+                SbWarnings *warnings) {
+  const double t = storage->storage_time;
   double tau[SB_RUBBER_TERMS];
   double longest = 0.0;
   out->relaxation = 1.0;
@@ -200,18 +195,22 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
             "storage is %.2g times the longest relaxation time: slower relaxation is unknown",
             t / longest);
   }
-
-  // Network.
-  out->network = exp(-r->network_rate * arrhenius(r->network_energy, temperature, reference) * t);
-  const double anew = r->network_reform * (1.0 - out->network);
-  const double lasting = anew > 0.0 ? anew / (out->network + anew) : 0.0;
+  out->network =
+      exp(-r->network_rate *
+          arrhenius(r->network_energy, storage->temperature, r->reference_temperature) * t);
+  const double reformed = r->network_reform * (1.0 - out->network);
+  const double lasting = reformed > 0.0 ? reformed / (out->network + reformed) : 0.0;
   const double slow = sb_rubber_viscoelastic_set(r->g, tau, r->terms, t, storage->recovery_time);
   out->compression_set = lasting + (1.0 - lasting) * slow;
+}
 
-  // Swell.
+// Sets uptake and swell, and the effect of swell on the modulus.
+static void swell(SbRubberState *out, const SbRubber *r, const SbRubberStorage *storage,
+                  SbWarnings *warnings) {
   const double radius = 0.5 * storage->section_diameter;
-  const double diffusion = r->diffusion * arrhenius(r->diffusion_energy, temperature, reference);
-  out->uptake = sb_rubber_uptake(diffusion * t / (radius * radius));
+  const double diffusion =
+      r->diffusion * arrhenius(r->diffusion_energy, storage->temperature, r->reference_temperature);
+  out->uptake = sb_rubber_uptake(diffusion * storage->storage_time / (radius * radius));
   const double full =
       r->swell_mass > 0.0 ? r->swell_mass * r->rubber_density / r->fluid_density : 0.0;
   out->volume_swell = out->uptake * full;
@@ -223,9 +222,12 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
             "swell of %.0f %% by volume: diffusion and elasticity are no longer linear",
             100.0 * out->volume_swell);
   }
+}
 
-  // Temperature of use.
-  const double use = storage->use_temperature, warmer = use - SB_SIZES_TEMPERATURE;
+// Sets the effect of the temperature of use on the modulus.
+static void stiffen(SbRubberState *out, const SbRubber *r, const SbRubberStorage *storage,
+                    SbWarnings *warnings) {
+  const double use = storage->use_temperature;
   out->stiffening = sb_rubber_stiffening(r, storage->modulus, use);
   if (!r->entropic && r->modulus_slope != 0.0 &&
       (use < fmin(r->slope_from, SB_SIZES_TEMPERATURE) ||
@@ -240,8 +242,23 @@ SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRub
             "stiffness depends on time there, and one modulus replaces all of it",
             use - r->glass_temperature, out->stiffening);
   }
+}
+
+SbStatus sb_rubber_state(SbRubberState *out, const SbRubber *rubber, const SbRubberStorage *storage,
+                         SbWarnings *warnings, SbReport *report) {
+  *out = (SbRubberState){0};
+  const SbRubber *r = rubber;
+  SbStatus status = check(r, storage, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  shift_times(out, r, storage->temperature, warnings);
+  age(out, r, storage, warnings);
+  swell(out, r, storage, warnings);
+  stiffen(out, r, storage, warnings);
 
   // The ring as it is now.
+  const double warmer = storage->use_temperature - SB_SIZES_TEMPERATURE;
   const double growth = (1.0 + out->linear_swell) * (1.0 + r->thermal_expansion * warmer);
   out->section_diameter = storage->section_diameter * growth;
   out->inner_diameter = storage->inner_diameter * growth;

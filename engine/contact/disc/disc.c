@@ -293,7 +293,87 @@ static double hydrostatic_of(const SbFitProblem *in, double p) {
   return p * (1.0 + in->poisson_ratio) * (1.0 - 2.0 * in->poisson_ratio) / in->modulus;
 }
 
-// Resolutions until the estimate is a tenth of the tolerance; each starts from the last.
+// Numbers of points of the resolutions.
+static const size_t points[] = {4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48};
+enum { LEVELS = sizeof points / sizeof points[0] };
+
+// Solutions of rising resolution.
+typedef struct {
+  double target;  // wanted pressure on one side, over that on both, times C
+  double wanted;  // error to be reached
+  double reached; // pressure that was solved; negative: none
+  double error[FIGURES], worst;
+  double limit; // pressure that no contact seals, at the last resolution
+  bool opens;   // the target is above it
+  size_t count;
+  Solution found[LEVELS];
+} Ladder;
+
+// Solves resolutions until the estimate is as wanted; each starts from the last.
+static void climb(Ladder *out, Work *w) {
+  enum { COARSE = 4 };
+  static const double SAME = 2e-4;
+  const double target = out->target;
+  for (size_t level = 0; level < LEVELS && out->worst > out->wanted && !out->opens &&
+                         (out->reached == target || out->count == 0);
+       level++) {
+    sb_disc_system_points(&w->system, points[level]);
+    const double reached = out->reached = solve_pressure(w, target);
+    if (reached < target) {
+      const double last = out->limit;
+      const double limit = reached > 0.0 && level > 0 ? find_limit(w, reached) : INFINITY;
+      out->limit = limit;
+      // The resolutions agree on the maximum to a hundredth of the distance from the wanted
+      // pressure, or to SAME of it (found by trial): nearer than that the first cannot be met.
+      out->opens = isfinite(limit) &&
+                   fabs(limit - last) < fmax(SAME * limit, 0.01 * fmin(limit, target - limit));
+      if (reached >= 0.0 && (level < COARSE || isfinite(limit))) {
+        // So few points cannot represent a filled corner of a narrow contact.
+        w->wet[2] = 0.0;
+        out->count = 0;
+        continue;
+      }
+      if (reached < 0.0 || out->count > 0) {
+        break; // nothing, or nothing better than the coarser resolution
+      }
+    }
+    keep(&out->found[out->count++], w);
+    if (out->count >= 3 && reached == target) {
+      estimate(out->error, &out->found[out->count - 3], w->system.radial);
+      out->worst = fmax(out->error[LOAD], fmax(out->error[PEAK], out->error[WIDTH]));
+    }
+  }
+}
+
+// Sets the errors of the last solution, and returns why it is not the wanted one.
+static SbStatus judge(SbFit *out, const SbFitProblem *in, const Ladder *ladder, double both,
+                      double residual, SbReport *report) {
+  const double compliance = sb_disc_compliance(in->modulus, in->poisson_ratio);
+  const double reached = ladder->reached, *error = ladder->error;
+  if (ladder->opens) {
+    const double most = ladder->limit / compliance + both;
+    sb_warn(&out->warnings, "disc-opens", SB_CONTACT_IN_PRESSURE,
+            "the fluid penetrates under the disc: no contact resists more than %.3g MPa (linear, "
+            "%.2g of "
+            "the modulus)",
+            1e-6 * most, most / in->modulus);
+    return SB_OK;
+  }
+  sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
+  if (reached != ladder->target) {
+    sb_fit_errors(out, 1.0, 1.0, 1.0);
+    return sb_fail_input(
+        report, SB_ERROR_NOT_CONVERGED,
+        reached < 0.0 ? SB_CONTACT_IN_RADIAL_SPACE : SB_CONTACT_IN_PRESSURE,
+        "the linear disc found no contact state beyond %.3g MPa (edge residual %.2g)",
+        1e-6 * fmax(0.0, reached) / compliance, residual);
+  }
+  return out->solver.converged ? SB_OK
+                               : sb_fail(report, SB_ERROR_NOT_CONVERGED,
+                                         "the linear disc's error estimate %.2g stays above %.2g",
+                                         ladder->worst, ladder->wanted);
+}
+
 static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, SbReport *report) {
   const double diameter = out->section_diameter_fitted, nu = in->poisson_ratio;
   const double compliance = sb_disc_compliance(in->modulus, nu);
@@ -307,80 +387,26 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   w->both = hydrostatic_of(in, both);
   w->shrink = hydrostatic_of(in, 1.0 / compliance);
   w->dry = fmin(0.9, sb_hertz_width_of_approach(2.0 * (1.0 - w->system.half_space), 2.0));
-
-  static const size_t points[] = {4, 6, 8, 10, 12, 16, 20, 24, 32, 40, 48};
-  enum { LEVELS = sizeof points / sizeof points[0], COARSE = 4 };
-  static const double SAME = 2e-4;
-  const double wanted = 0.1 * (in->tolerance > 0.0 ? in->tolerance : 1e-3);
   const double target = (fabs(in->pressure) - both) * compliance;
-  Solution found[LEVELS];
-  size_t levels = 0;
-  double reached = target;
-  double error[FIGURES] = {1.0, 1.0, 1.0};
-  double worst = 1.0;
-  double limit = INFINITY; // pressure that no contact seals, at the previous resolution
-  bool opens = false;
-  for (size_t level = 0;
-       level < LEVELS && worst > wanted && !opens && (reached == target || levels == 0); level++) {
-    sb_disc_system_points(&w->system, points[level]);
-    reached = solve_pressure(w, target);
-    if (reached < target) {
-      const double last = limit;
-      limit = reached > 0.0 && level > 0 ? find_limit(w, reached) : INFINITY;
-      // The resolutions agree on the maximum to a hundredth of the distance from the wanted
-      // pressure, or to SAME of it (found by trial): nearer than that the first cannot be met.
-      opens = isfinite(limit) &&
-              fabs(limit - last) < fmax(SAME * limit, 0.01 * fmin(limit, target - limit));
-      if (reached >= 0.0 && (level < COARSE || isfinite(limit))) {
-        // So few points cannot represent a filled corner of a narrow contact.
-        w->wet[2] = 0.0;
-        levels = 0;
-        continue;
-      }
-      if (reached < 0.0 || levels > 0) {
-        break; // nothing, or nothing better than the coarser resolution
-      }
-    }
-    keep(&found[levels++], w);
-    if (levels >= 3 && reached == target) {
-      estimate(error, &found[levels - 3], w->system.radial);
-      worst = fmax(error[LOAD], fmax(error[PEAK], error[WIDTH]));
-    }
-  }
+  Ladder ladder = {.target = target,
+                   .wanted = 0.1 * (in->tolerance > 0.0 ? in->tolerance : 1e-3),
+                   .reached = target,
+                   .error = {1.0, 1.0, 1.0},
+                   .worst = 1.0,
+                   .limit = INFINITY};
+  climb(&ladder, w);
   const size_t iterations =
       w->edges[0].iterations + w->edges[1].iterations + w->edges[2].iterations;
-  const double residual = w->edges[!(reached >= 0.0 && target > 0.0) ? 0
-                                   : w->wet[3] > 0.0                 ? 2
-                                                                     : 1]
+  const double residual = w->edges[!(ladder.reached >= 0.0 && target > 0.0) ? 0
+                                   : w->wet[3] > 0.0                        ? 2
+                                                                            : 1]
                               .residual;
   out->solver.newton_iterations = iterations;
-  out->solver.converged = opens || worst <= wanted;
-  if (levels > 0) {
-    fill(out, &found[levels - 1], compliance, both, in->pressure < 0.0);
+  out->solver.converged = ladder.opens || ladder.worst <= ladder.wanted;
+  if (ladder.count > 0) {
+    fill(out, &ladder.found[ladder.count - 1], compliance, both, in->pressure < 0.0);
   }
-  const bool lost = reached != target;
-  SbStatus status = SB_OK;
-  if (!opens) {
-    sb_fit_errors(out, error[LOAD], error[PEAK], error[WIDTH]);
-  } else {
-    const double most = limit / compliance + both;
-    sb_warn(&out->warnings, "disc-opens", SB_CONTACT_IN_PRESSURE,
-            "the fluid penetrates under the disc: no contact resists more than %.3g MPa (linear, "
-            "%.2g of "
-            "the modulus)",
-            1e-6 * most, most / in->modulus);
-  }
-  if (lost && !opens) {
-    sb_fit_errors(out, 1.0, 1.0, 1.0);
-    status =
-        sb_fail_input(report, SB_ERROR_NOT_CONVERGED,
-                      reached < 0.0 ? SB_CONTACT_IN_RADIAL_SPACE : SB_CONTACT_IN_PRESSURE,
-                      "the linear disc found no contact state beyond %.3g MPa (edge residual %.2g)",
-                      1e-6 * fmax(0.0, reached) / compliance, residual);
-  } else if (!out->solver.converged) {
-    status = sb_fail(report, SB_ERROR_NOT_CONVERGED,
-                     "the linear disc's error estimate %.2g stays above %.2g", worst, wanted);
-  }
+  SbStatus status = judge(out, in, &ladder, both, residual, report);
   if (status != SB_OK && report != NULL) {
     report->residual = residual;
     report->iteration = (int)iterations;

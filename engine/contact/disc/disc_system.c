@@ -141,6 +141,69 @@ static void add_self(SbDiscSystem *s, const SbDiscPoint *point, double half, siz
   }
 }
 
+// Sets the wall's part of the system, at the points `side`. Wall at depth X: inward displacement X
+// - (1 - cos psi), and its balance with the fluid.
+static void add_wall(SbDiscSystem *s, const SbDiscPoint *bore, const SbDiscPoint *side,
+                     double width, double left) {
+  const size_t n = s->n, rows = 2 * n + 1;
+  const double centre = s->centre, half = s->half;
+  add_self(s, side, width, n, rows, false);
+  for (size_t i = 0; i < n; i++) {
+    const SbDiscPoint to = turn_point(side[i]);
+    const SbDiscVector m_wall = turn(measure_at(s, side[i]));
+    const SbDiscVector m_bore = measure_at(s, bore[i]);
+    for (size_t j = 0; j < n; j++) {
+      s->matrix[n + i + j * rows] =
+          M_PI / (double)n *
+          sb_disc_kernel_pair(&s->kernel, to, m_wall, bore[j], force_at(s, bore[j]));
+      s->matrix[i + (n + j) * rows] =
+          M_PI / (double)n *
+          sb_disc_kernel_value(&s->kernel, bore[i], m_bore, turn_point(side[j]),
+                               turn(force_at(s, side[j])));
+    }
+    s->matrix[i + 2 * n * rows] = 0.0;
+    s->matrix[n + i + 2 * n * rows] = -1.0;
+    s->solution[i] -= known_displacement(s, bore[i], m_bore, s->tau[i]);
+    s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, to, m_wall, 2.0) -
+                         s->hydrostatic * (s->radial ? 1.0 : side[i].cos);
+    // Equilibrium along x: wall load = fluid on the height between the left edges, less what
+    // radial contact forces carry.
+    s->matrix[2 * n + i * rows] = -2.0 * M_PI / (double)n * force_at(s, bore[i]).x;
+    s->matrix[2 * n + (n + i) * rows] = M_PI / (double)n;
+  }
+  s->matrix[2 * n + 2 * n * rows] = 0.0;
+  s->solution[2 * n] = 2.0 * s->pressure * sqrt(1.0 - left * left);
+  for (int i = 0; i < SB_DISC_GAUSS; i++) {
+    const double tau = 2.0 * s->gauss_x[i] - 1.0;
+    const SbDiscVector force = force_at(s, sb_disc_point_at(centre + half * tau));
+    s->solution[2 * n] +=
+        4.0 * s->gauss_w[i] * half * s->pressure * sb_disc_system_step(tau) * force.x;
+  }
+}
+
+// Writes the residuals: the solved pressures' values at the edges over their means. Returns whether
+// they are finite.
+static bool edge_values(double *residual, SbDiscSystem *s, bool wall) {
+  const size_t n = s->n;
+  bool finite = true;
+  for (int contact = 0; contact < (wall ? 2 : 1); contact++) {
+    const double *F = &s->solution[contact == 0 ? 0 : n];
+    double mean = 0.0, at_left = 0.0, at_right = 0.0;
+    sb_chebyshev_coefficients(s->series[contact], F, (int)n);
+    for (size_t j = 0; j < n; j++) {
+      mean += fabs(F[j]) / (double)n;
+      at_left += s->series[contact][j];
+      at_right += (j % 2 == 0 ? 1.0 : -1.0) * s->series[contact][j];
+    }
+    residual[2 * contact] = at_right / mean;
+    if (wall && contact == 0) {
+      residual[1] = at_left / mean;
+    }
+    finite = finite && isfinite(at_left / mean) && isfinite(at_right / mean);
+  }
+  return finite;
+}
+
 bool sb_disc_system_solve(double *residual, const double *edges, void *system) {
   SbDiscSystem *s = system;
   const size_t n = s->n;
@@ -167,64 +230,15 @@ bool sb_disc_system_solve(double *residual, const double *edges, void *system) {
     s->solution[i] = c - s->half_space - s->hydrostatic * (s->radial ? 1.0 : c);
   }
 
-  // Wall at depth X: inward displacement X - (1 - cos psi), and its balance with the fluid.
   if (wall) {
-    add_self(s, side, width, n, rows, false);
-    for (size_t i = 0; i < n; i++) {
-      const SbDiscPoint to = turn_point(side[i]);
-      const SbDiscVector m_wall = turn(measure_at(s, side[i]));
-      const SbDiscVector m_bore = measure_at(s, bore[i]);
-      for (size_t j = 0; j < n; j++) {
-        s->matrix[n + i + j * rows] =
-            M_PI / (double)n *
-            sb_disc_kernel_pair(&s->kernel, to, m_wall, bore[j], force_at(s, bore[j]));
-        s->matrix[i + (n + j) * rows] =
-            M_PI / (double)n *
-            sb_disc_kernel_value(&s->kernel, bore[i], m_bore, turn_point(side[j]),
-                                 turn(force_at(s, side[j])));
-      }
-      s->matrix[i + 2 * n * rows] = 0.0;
-      s->matrix[n + i + 2 * n * rows] = -1.0;
-      s->solution[i] -= known_displacement(s, bore[i], m_bore, s->tau[i]);
-      s->solution[n + i] = side[i].cos - 1.0 - known_displacement(s, to, m_wall, 2.0) -
-                           s->hydrostatic * (s->radial ? 1.0 : side[i].cos);
-      // Equilibrium along x: wall load = fluid on the height between the left edges, less what
-      // radial contact forces carry.
-      s->matrix[2 * n + i * rows] = -2.0 * M_PI / (double)n * force_at(s, bore[i]).x;
-      s->matrix[2 * n + (n + i) * rows] = M_PI / (double)n;
-    }
-    s->matrix[2 * n + 2 * n * rows] = 0.0;
-    s->solution[2 * n] = 2.0 * s->pressure * sqrt(1.0 - left * left);
-    for (int i = 0; i < SB_DISC_GAUSS; i++) {
-      const double tau = 2.0 * s->gauss_x[i] - 1.0;
-      const SbDiscVector force = force_at(s, sb_disc_point_at(centre + half * tau));
-      s->solution[2 * n] +=
-          4.0 * s->gauss_w[i] * half * s->pressure * sb_disc_system_step(tau) * force.x;
-    }
+    add_wall(s, bore, side, width, left);
   }
 
   if (!sb_eliminate(s->matrix, s->solution, rows)) {
     return false;
   }
 
-  // Values at the edges.
-  bool finite = true;
-  for (int contact = 0; contact < (wall ? 2 : 1); contact++) {
-    const double *F = &s->solution[contact == 0 ? 0 : n];
-    double mean = 0.0, at_left = 0.0, at_right = 0.0;
-    sb_chebyshev_coefficients(s->series[contact], F, (int)n);
-    for (size_t j = 0; j < n; j++) {
-      mean += fabs(F[j]) / (double)n;
-      at_left += s->series[contact][j];
-      at_right += (j % 2 == 0 ? 1.0 : -1.0) * s->series[contact][j];
-    }
-    residual[2 * contact] = at_right / mean;
-    if (wall && contact == 0) {
-      residual[1] = at_left / mean;
-    }
-    finite = finite && isfinite(at_left / mean) && isfinite(at_right / mean);
-  }
-  return finite;
+  return edge_values(residual, s, wall);
 }
 
 double sb_disc_system_bulge(const SbDiscSystem *s) {
