@@ -1,5 +1,6 @@
 // Shared by the files of dynamics.h: dynamics_check.c (input), dynamics_forces.c (forces, energies,
-// event functions), dynamics_path.c (motion between events), dynamics.c (effects of events),
+// event functions), dynamics_path.c (motion between events), dynamics_states.c (state and
+// energies there), dynamics.c (effects of events),
 // dynamics_repeat.c (stick-slip cycles). Private to engine/mechanism.
 //
 // sb_dynamics_advance() works segment by segment: sb_motion_find_path() finds the motion from s->t

@@ -541,7 +541,7 @@ typedef struct {
 
 // A parameter's slopes against differences of rings that are solved: to 1e-4 where both ends have
 // the base's active sets and meshes, else within the error that is told and what of a friction is
-// left open then (drag_beside() in sliding_fit.c).
+// left open then (drag_beside() in sliding_drag.c).
 static void hold_slopes(Count *count, const Valve *valve, const SbGradient *gradient, size_t k,
                         SbEvaluator *evaluator, const SbEvaluator *start) {
   // OWN: to what friction and ring agree (drag_beside()) over a gradient's step: where nothing

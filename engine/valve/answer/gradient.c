@@ -29,8 +29,7 @@ enum {
 typedef SbGradientLevel Level;
 typedef SbGradientWork Work;
 
-// Steps as parts of the parameter's scale.
-static const double parts[LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 8e-6, 1.3e-4};
+const double sb_gradient_parts[SB_GRADIENT_LEVELS] = {1e-3, 6e-5, 4e-6, 1.6e-2, 8e-6, 1.3e-4};
 
 double *sb_gradient_values(const Work *work, int level, int point) {
   return work->value + (size_t)(level * POINTS + point) * work->out->figures;
@@ -80,151 +79,18 @@ static SbStatus ask(Work *work, double *value, double x, bool note) {
   return sb_gradient_ask(work, value, x, note);
 }
 
-// ---- One figure
+// ---- One parameter
 
-typedef enum { SMOOTH, ROUGH, MISSING } Kind;
-
-typedef struct {
-  Kind kind;
-  double slope, error;
-  double apart;  // slopes towards both sides at h/2, or one-sided ones in turn [figure/SI]
-  double before; // the same at h
-  double step;   // h/2 or h/4, > 0
-  bool hidden;   // the error is rounding's
-} Estimate;
-
-// Fraction of a figure by which two answers of one solver may differ; of linearised rings, whose
-// contacts' ends are found to that accuracy.
-static const double ROUNDING = 4e-14, RINGS_ROUNDING = 1e-10;
-
-// Change of a figure, relative to its size, below which a slope is rounding: twice ROUNDING over
-// the first step.
+// Change of a figure, relative to its size, below which a slope is rounding: twice ROUNDING
+// (gradient_slope.c) over the first step.
 static const double NIL = 8e-11;
-
-// Share of a slope by which those towards both sides may differ for the outer pair of points to be
-// enough: what that leaves out is of the order of this share's square. Or what they differ by is
-// this part of the figure where the parameter changes by itself.
-static const double PAIR = 3e-2, LITTLE = 3e-3;
-
-// By how much more than the forces that violate a ring's active set its figures change once that
-// is renewed (measured: 1.3 in the middle, more than 3 only where it is below 2e-3 of the slope).
-static const double RESPONSE = 3;
-
-static void estimate(Estimate *out, const Work *work, int at, size_t figure) {
-  const Level *level = &work->level[at];
-  const double f0 = work->base_value[figure], h = level->h;
-  double f[POINTS], nearest, last;
-  for (int i = 0; i < POINTS; i++) {
-    f[i] = value_of(work, at, i)[figure];
-  }
-  if (level->one_sided) {
-    const double d1 = (f[PLUS] - f0) / h, d2 = 2 * (f[HALF] - f0) / h;
-    const double d4 = 4 * (f[QUARTER] - f0) / h;
-    const double first = 2 * d2 - d1;
-    last = 2 * d4 - d2;
-    *out = (Estimate){.slope = (4 * last - first) / 3,
-                      .apart = fabs(d4 - d2),
-                      .before = fabs(d2 - d1),
-                      .step = fabs(h) / 4};
-    nearest = fabs(d4);
-  } else if (level->pair) {
-    const double up = (f[PLUS] - f0) / h, down = (f0 - f[MINUS]) / h;
-    *out = (Estimate){.slope = (up + down) / 2, .apart = fabs(up - down), .step = h};
-    nearest = fmax(fabs(up), fabs(down));
-    const bool little = out->apart * h / parts[at] <= LITTLE * work->size[figure];
-    out->before = out->apart <= PAIR * nearest || little ? INFINITY : 0;
-    last = out->slope - (nearest > 0 ? out->apart * fmin(out->apart / nearest, 1) : 0);
-  } else {
-    const double up = 2 * (f[PLUS_HALF] - f0) / h, down = 2 * (f0 - f[MINUS_HALF]) / h;
-    last = (f[PLUS_HALF] - f[MINUS_HALF]) / h;
-    *out = (Estimate){.slope = (4 * last - (f[PLUS] - f[MINUS]) / (2 * h)) / 3,
-                      .apart = fabs(up - down),
-                      .before = fabs((f[PLUS] - f0) / h - (f0 - f[MINUS]) / h),
-                      .step = h / 2};
-    nearest = fmax(fabs(up), fabs(down));
-  }
-  const int seal = sb_figure(work->question.figure[figure])->seal;
-  const double part = at >= RINGS ? RINGS_ROUNDING : ROUNDING;
-  const double rounding = part * work->size[figure] / out->step;
-  out->error =
-      fabs(out->slope - last) + 2 * rounding + RESPONSE * level->fault[seal] * work->size[figure];
-  out->hidden = 2 * rounding > 0.5 * out->error;
-  const bool falls = out->apart < 0.75 * out->before;
-  const bool small = out->apart <= fmax(1e-4 * nearest, 8 * rounding);
-  out->error += !falls && small ? out->apart / 2 : 0;
-  out->kind = !isfinite(out->slope) || !isfinite(out->error) ? MISSING
-              : falls || small                               ? SMOOTH
-                                                             : ROUGH;
-}
-
-static void set(Work *work, size_t parameter, size_t figure, double slope, double error) {
-  const size_t cell = figure * work->out->parameters + parameter;
-  work->out->slope[cell] = slope;
-  work->out->error[cell] = error;
-  work->open[figure] = false;
-}
-
-static void SB_PRINTF(4, 5)
-    refuse(Work *work, size_t parameter, size_t figure, const char *format, ...) {
-  char text[SB_GRADIENT_TEXT];
-  va_list arguments;
-  va_start(arguments, format);
-  sb_message_v(text, sizeof text, format, arguments);
-  va_end(arguments);
-  set(work, parameter, figure, NAN, NAN);
-  work->out->why[figure * work->out->parameters + parameter] = sb_gradient_text(work->out, text);
-}
 
 // Returns whether a derivative with its error is accurate enough: relative to itself, or to the
 // change of the figure when the parameter changes by itself.
-static bool enough(const Estimate *of, double size, double scale) {
-  return of->kind == SMOOTH && of->error <= fmax(1e-6 * fabs(of->slope), 1e-12 * size / scale);
+static bool enough(const SbGradientEstimate *of, double size, double scale) {
+  return of->kind == SB_GRADIENT_SMOOTH &&
+         of->error <= fmax(1e-6 * fabs(of->slope), 1e-12 * size / scale);
 }
-
-// Takes the best result of all levels for a figure that no level determines well.
-static void settle(Work *work, size_t parameter, size_t figure) {
-  Estimate best = {.kind = MISSING}, least = {.kind = MISSING}, most = {.kind = MISSING};
-  for (int i = 0; i < LEVELS; i++) {
-    Estimate now;
-    if (!work->level[i].asked) {
-      continue;
-    }
-    estimate(&now, work, i, figure);
-    if (now.kind == MISSING) {
-      continue;
-    }
-    if (now.kind == SMOOTH && (best.kind == MISSING || now.error < best.error)) {
-      best = now;
-    }
-    least = least.kind == MISSING || now.step < least.step ? now : least;
-    most = most.kind == MISSING || now.step > most.step ? now : most;
-  }
-  if (best.kind == SMOOTH && (least.kind == SMOOTH || best.error < 1e-3 * fabs(best.slope))) {
-    set(work, parameter, figure, best.slope, best.error);
-    return;
-  }
-  if (least.kind == MISSING) {
-    refuse(work, parameter, figure, "%s: %s",
-           work->refused ? "there is no other value" : "the figure has no value next to it",
-           work->report.text[0] != '\0' ? work->report.text : work->changed);
-    work->out->fixed[figure * work->out->parameters + parameter] = work->refused;
-    return;
-  }
-  // The smallest step determines how far a figure jumps or scatters.
-  const double jump = least.apart * least.step;
-  const bool scatters = jump < 1e-6 * work->size[figure] && least.apart > 3 * most.apart;
-  if (scatters) {
-    set(work, parameter, figure, most.slope, most.error + jump / most.step);
-  } else if (work->changed[0] != '\0') {
-    refuse(work, parameter, figure, "%s", work->changed);
-  } else if (work->level[FIRST].one_sided) {
-    refuse(work, parameter, figure, "no finite slope at the end of the parameter's range");
-  } else {
-    refuse(work, parameter, figure, "it bends or jumps there: the slopes to both sides differ");
-  }
-}
-
-// ---- One parameter
 
 // Returns the scale of a parameter's steps.
 static double scale_of(SbParamId id, double x) {
@@ -257,9 +123,9 @@ static bool pair_tells(Work *work, int at) {
   bool well = true;
   work->level[at].pair = true;
   for (size_t i = 0; i < work->out->figures && well; i++) {
-    Estimate now;
-    estimate(&now, work, at, i);
-    well = !work->open[i] || now.kind == SMOOTH;
+    SbGradientEstimate now;
+    sb_gradient_estimate(&now, work, at, i);
+    well = !work->open[i] || now.kind == SB_GRADIENT_SMOOTH;
   }
   work->level[at].pair = well;
   return well;
@@ -332,19 +198,20 @@ static SbStatus ask_level(Work *work, int at, double x, double h, const SbParam 
 static void take(Work *work, int at, size_t parameter, double scale, bool *smaller, bool *larger) {
   *smaller = *larger = false;
   for (size_t i = 0; i < work->out->figures; i++) {
-    Estimate now;
+    SbGradientEstimate now;
     if (!work->open[i] || !work->level[at].asked) {
       *smaller |= work->open[i];
       continue;
     }
-    estimate(&now, work, at, i);
-    const bool well = at >= RINGS ? now.kind == SMOOTH : enough(&now, work->size[i], scale);
+    sb_gradient_estimate(&now, work, at, i);
+    const bool well =
+        at >= RINGS ? now.kind == SB_GRADIENT_SMOOTH : enough(&now, work->size[i], scale);
     if (same_bits(work, at, work->level[at].pair ? 2 : POINTS, i)) {
-      set(work, parameter, i, 0, 0);
+      sb_gradient_set(work, parameter, i, 0, 0);
     } else if (well) {
-      set(work, parameter, i, now.slope, now.error);
+      sb_gradient_set(work, parameter, i, now.slope, now.error);
     } else {
-      const bool hidden = now.kind == SMOOTH && now.hidden;
+      const bool hidden = now.kind == SB_GRADIENT_SMOOTH && now.hidden;
       *larger |= hidden;
       *smaller |= !hidden;
     }
@@ -353,7 +220,7 @@ static void take(Work *work, int at, size_t parameter, double scale, bool *small
 
 // Returns whether a parameter enters rings.
 static bool enters_rings(Work *work, double x, double scale) {
-  work->override[work->question.override_count - 1].value = x + parts[RINGS] * scale;
+  work->override[work->question.override_count - 1].value = x + sb_gradient_parts[RINGS] * scale;
   return work->start != NULL && !sb_evaluator_has_solved(work->evaluator, &work->question);
 }
 
@@ -369,9 +236,9 @@ static void accept(Work *work, size_t parameter, double scale) {
       continue;
     }
     if (slope * scale <= NIL * work->size[i]) {
-      set(work, parameter, i, 0, 0);
+      sb_gradient_set(work, parameter, i, 0, 0);
     } else {
-      refuse(work, parameter, i, SB_GRADIENT_UNCERTAIN);
+      sb_gradient_refuse(work, parameter, i, SB_GRADIENT_UNCERTAIN);
     }
   }
 }
@@ -397,7 +264,7 @@ static SbStatus differentiate(Work *work, size_t parameter) {
   if (work->rings && x == 0 && is_feature(id)) {
     for (size_t i = 0; i < out->figures; i++) {
       if (work->open[i]) {
-        refuse(work, parameter, i, "not known at 0: the groove does without it");
+        sb_gradient_refuse(work, parameter, i, "not known at 0: the groove does without it");
       }
     }
     return SB_OK;
@@ -408,7 +275,7 @@ static SbStatus differentiate(Work *work, size_t parameter) {
     if (at == LARGE ? !larger : !smaller) {
       continue;
     }
-    SbStatus status = ask_level(work, at, x, parts[at] * scale, sb_param(id));
+    SbStatus status = ask_level(work, at, x, sb_gradient_parts[at] * scale, sb_param(id));
     bool more;
     if (ends(status)) {
       return status;
@@ -425,7 +292,7 @@ static SbStatus differentiate(Work *work, size_t parameter) {
   }
   for (size_t i = 0; i < out->figures; i++) {
     if (work->open[i]) {
-      settle(work, parameter, i);
+      sb_gradient_settle(work, parameter, i);
     }
   }
   SbStatus status = work->rings ? sb_gradient_check_rings(work, parameter, x, scale) : SB_OK;
@@ -527,7 +394,7 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
     const char *why = sb_evaluator_reason(by, out->figure[i]);
     work->size[i] = sb_gradient_size(sb_evaluator_summary(by), out->figure[i]);
     for (size_t k = 0; why != NULL && k < out->parameters; k++) {
-      refuse(work, k, i, "%s", why);
+      sb_gradient_refuse(work, k, i, "%s", why);
     }
   }
   return work->start != NULL ? solved : status;

@@ -1,4 +1,5 @@
-// Shared by gradient.c, gradient_rings.c, gradient_values.c and gradient_outcome.c.
+// Shared by gradient.c, gradient_slope.c, gradient_rings.c, gradient_values.c and
+// gradient_outcome.c.
 //
 // sb_gradient_create() evaluates the base, then takes one parameter after the other: it computes
 // all figures at a level (a step size; several points on both sides of the base) and decides for
@@ -133,6 +134,38 @@ typedef struct {
 
 // Returns the array [figures] of values at a point of a level, in work->value.
 double *sb_gradient_values(const SbGradientWork *work, int level, int point);
+
+// Steps of the levels, as parts of the parameter's scale.
+extern const double sb_gradient_parts[SB_GRADIENT_LEVELS];
+
+// Whether differences determine a slope: they do, they do not, or there are none.
+typedef enum { SB_GRADIENT_SMOOTH, SB_GRADIENT_ROUGH, SB_GRADIENT_MISSING } SbGradientKind;
+
+// The slope of a figure from the differences of a level.
+typedef struct {
+  SbGradientKind kind;
+  double slope, error; // [figure/SI]
+  double apart;        // slopes towards both sides at h/2, or one-sided ones in turn [figure/SI]
+  double before;       // the same at h
+  double step;         // h/2 or h/4, > 0
+  bool hidden;         // the error is rounding's
+} SbGradientEstimate;
+
+// Estimates the slope of figure number `figure` from the values of the level `at`, which must have
+// been evaluated.
+void sb_gradient_estimate(SbGradientEstimate *out, const SbGradientWork *work, int at,
+                          size_t figure);
+
+// Decides the derivative of a figure by a parameter: sets slope and error.
+void sb_gradient_set(SbGradientWork *work, size_t parameter, size_t figure, double slope,
+                     double error);
+
+// Decides that a derivative is not known, for a formatted reason.
+void SB_PRINTF(4, 5) sb_gradient_refuse(SbGradientWork *work, size_t parameter, size_t figure,
+                                        const char *format, ...);
+
+// Decides with the best result of all levels a figure that no level determines well.
+void sb_gradient_settle(SbGradientWork *work, size_t parameter, size_t figure);
 
 // Returns whether an error ends the computation: SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
 bool sb_gradient_ends(SbStatus status);

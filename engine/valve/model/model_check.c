@@ -206,7 +206,7 @@ void sb_model_remarks(const SbModel *model, SbProblems *out) {
   if (stored_only(model)) {
     sb_model_refuse(out, "storage.temperature", NAN, NAN, "%s", stored_only_text);
   }
-  // Position of the vent between the contacts, without their widths (run_valve.c includes them).
+  // Position of the vent between the contacts, without their widths (run_ports.c includes them).
   double hole = model->shape.vent_diameter;
   double nearest = model->land_edge - model->stroke - hole / 2;
   double furthest = model->land_edge + model->shape.seal_spacing + hole / 2;

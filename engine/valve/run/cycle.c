@@ -1,5 +1,5 @@
-// Plans the segments of the quasi-static cycle and evaluates them; the equations are in cycle.h.
-#include "engine/valve/run/cycle.h"
+// Plans the segments of the quasi-static cycle, and its energies; the equations are in cycle.h.
+#include "engine/valve/run/cycle_private.h"
 
 #include "engine/numeric/legendre.h"
 #include "engine/numeric/root.h"
@@ -10,222 +10,13 @@
 #include <math.h>
 
 // ---------------------------------------------------------------------------------------------------
-// Resistance
-
-// Returns whether the inner seal has contact at all. While the chamber is open its state is not
-// solved, so the closed states decide.
-static bool inner_touches(const SbCycle *cycle, SbChamber chamber, int direction) {
-  if (chamber == SB_CHAMBER_OPEN) {
-    chamber = direction == SB_CYCLE_OUT ? SB_CHAMBER_CLOSED : SB_CHAMBER_AT_REST;
-  }
-  return cycle->state[SB_INNER][chamber][direction].touches;
-}
-
-double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction) {
-  const SbSealState *first = &cycle->state[SB_INNER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
-  const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
-  const bool both = first->touches && inner->touches;
-  return cycle->model->land_edge +
-         (both ? sb_valve_type(cycle->model)->edge_shift(first, inner) : 0);
-}
-
-double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction) {
-  const SbSealState *inner = &cycle->state[SB_INNER][chamber][direction];
-  return sb_cycle_edge_begin(cycle, chamber, direction) + inner->contact_right -
-         inner->contact_left;
-}
-
-// Share of a seal's contact that the edge has passed, or that a gasket's shoulder has not reached;
-// without contact all of it.
-static double passed(const SbCycle *cycle, int seal, SbChamber chamber, int direction, double s) {
-  const SbSealState *state = &cycle->state[seal][chamber][direction];
-  if (!state->touches || (seal == SB_INNER && chamber == SB_CHAMBER_OPEN)) {
-    return 1;
-  }
-  if (seal == SB_OUTER) {
-    return 0;
-  }
-  double width = state->contact_right - state->contact_left;
-  double t = (s - sb_cycle_edge_begin(cycle, chamber, direction)) / width;
-  t = sb_valve_type(cycle->model)->open_beyond ? t : 1 - t;
-  return t > 1 - 1e-12 ? 1 : fmax(t, 0); // what rounding of s leaves at the end is no contact
-}
-
-SbLandShare sb_cycle_land_share(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
-                                double s) {
-  double t = passed(cycle, seal, chamber, direction, s);
-  double c = 1 - 2 * t; // of the elliptic pressure
-  return (SbLandShare){1 - t, 1 - (acos(c) - c * sqrt(fmax(1 - c * c, 0))) / M_PI};
-}
-
-double sb_cycle_seal_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
-                              double s) {
-  const SbSealState *state = &cycle->state[seal][chamber][direction];
-  const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, direction, s);
-  return (state->boundary_area + state->friction_viscous) * on.width +
-         state->boundary_load * on.load;
-}
-
-double sb_cycle_friction(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
-  return sb_cycle_seal_friction(cycle, SB_OUTER, chamber, direction, s) +
-         sb_cycle_seal_friction(cycle, SB_INNER, chamber, direction, s);
-}
-
-double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chamber, int direction,
-                                double s) {
-  const SbSealState *state = &cycle->state[seal][chamber][direction];
-  double kinetic = sb_sliding_friction(state);
-  double ratio = kinetic > 0 ? state->friction_static / kinetic : 1;
-  return ratio * sb_cycle_seal_friction(cycle, seal, chamber, direction, s);
-}
+// Planning
 
 // Static limit of both seals [N].
 static double static_limit(const SbCycle *cycle, SbChamber chamber, int direction, double s) {
   return sb_cycle_static_friction(cycle, SB_OUTER, chamber, direction, s) +
          sb_cycle_static_friction(cycle, SB_INNER, chamber, direction, s);
 }
-
-SbStatus sb_cycle_rest(SbCycle *cycle, double dwell, SbReport *report) {
-  for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS; i++) {
-    const int seal = i / SB_CYCLE_CHAMBERS, chamber = i % SB_CYCLE_CHAMBERS;
-    SbStatus status = sb_breakaway_after(&cycle->hold[seal][chamber], cycle->model, seal,
-                                         &cycle->state[seal][chamber][SB_CYCLE_OUT], dwell, report);
-    if (status != SB_OK) {
-      return status;
-    }
-  }
-  return SB_OK;
-}
-
-double sb_cycle_reserve(const SbCycle *cycle, SbChamber chamber, double s) {
-  double friction = 0;
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    const SbSealState *state = &cycle->state[seal][chamber][SB_CYCLE_OUT];
-    const SbLandShare on = sb_cycle_land_share(cycle, seal, chamber, SB_CYCLE_OUT, s);
-    const double dry = state->rest_area + state->rest_load;
-    // The dry contact's parts have the shares of the contact's width and load.
-    const double part =
-        dry > 0 ? (state->rest_area * on.width + state->rest_load * on.load) / dry : 0;
-    friction += fmax(part * cycle->hold[seal][chamber],
-                     sb_cycle_seal_friction(cycle, seal, chamber, SB_CYCLE_OUT, s));
-  }
-  return sb_model_push(cycle->model, s) - friction;
-}
-
-// A position of the platen and the corresponding state of the cycle.
-typedef struct {
-  const SbCycle *cycle;
-  SbChamber chamber;
-  int direction;
-  double platen;
-} Place;
-
-static double sign_of(int direction) {
-  return direction == SB_CYCLE_IN ? 1 : -1;
-}
-
-// Magnitude of the seals' kinetic friction [N].
-static double friction_at(double s, const void *context) {
-  const Place *p = context;
-  return sb_cycle_friction(p->cycle, p->chamber, p->direction, s);
-}
-
-// Returns the force that balances sliding: F_p + f on the in-stroke, F_p - f on the return.
-static double balance_at(double s, const void *context) {
-  const Place *p = context;
-  return sb_model_push(p->cycle->model, s) + sign_of(p->direction) * friction_at(s, p);
-}
-
-// dX/ds of balanced sliding at s; the inner seal's friction falls while the edge passes, by the
-// same ellipse as its share of the load. That of a gasket rises as the shoulder does.
-static double rate_at(double s, const void *context) {
-  const Place *p = context;
-  const SbSealState *inner = &p->cycle->state[SB_INNER][p->chamber][p->direction];
-  double t = passed(p->cycle, SB_INNER, p->chamber, p->direction, s);
-  const double spring = 1 + p->cycle->model->spring_stiffness / p->cycle->model->stiffness;
-  if (t <= 0 || t >= 1) {
-    return spring;
-  }
-  double c = 1 - 2 * t;
-  const double falls = sb_valve_type(p->cycle->model)->open_beyond ? 1 : -1;
-  double slope = -falls *
-                 ((inner->boundary_area + inner->friction_viscous) +
-                  inner->boundary_load * 4 / M_PI * sqrt(fmax(1 - c * c, 0))) /
-                 (inner->contact_right - inner->contact_left);
-  return spring + sign_of(p->direction) * slope / p->cycle->model->stiffness;
-}
-
-double sb_cycle_force(const SbCycle *cycle, double X, double s) {
-  return fmax(cycle->model->stiffness * (X - s), 0);
-}
-
-// Returns the same margin at s for the chamber of the position.
-static double reserve_at(double s, const void *context) {
-  const Place *p = context;
-  return sb_cycle_reserve(p->cycle, p->chamber, s);
-}
-
-// Force on a stem at s beyond the balance, in the direction of sliding. The platen only pushes: a
-// stem that the pressure below ambient draws in runs ahead of it.
-static double excess_force(double s, const void *context) {
-  const Place *p = context;
-  return sign_of(p->direction) * (sb_cycle_force(p->cycle, p->platen, s) - balance_at(s, p));
-}
-
-// ---------------------------------------------------------------------------------------------------
-// Evaluation inside a segment
-
-// Returns the distance beyond X that the platen would need for the balance of a stem at s;
-// increases with s.
-static double platen_beyond(double *slope, double s, const void *context) {
-  const Place *p = context;
-  *slope = rate_at(s, p);
-  return s + balance_at(s, p) / p->cycle->model->stiffness - p->platen;
-}
-
-double sb_cycle_stem(const SbCycle *cycle, const SbCycleSegment *segment, double X) {
-  if (segment->mode != SB_CYCLE_SLIP) {
-    return segment->stem0;
-  }
-  // X(s) = s + G(s)/k increases with s inside a segment: jumps are cut out when it is planned.
-  double low = fmin(segment->stem0, segment->stem1);
-  double high = fmax(segment->stem0, segment->stem1);
-  double span = segment->platen1 - segment->platen0;
-  double share = span != 0 ? (X - segment->platen0) / span : 1;
-  const Place place = {cycle, segment->chamber, segment->direction, X};
-  return sb_newton_bracketed(platen_beyond, &place, low, high,
-                             segment->stem0 + (segment->stem1 - segment->stem0) * share);
-}
-
-double sb_cycle_stem_rate(const SbCycle *cycle, const SbCycleSegment *segment, double s) {
-  if (segment->mode != SB_CYCLE_SLIP) {
-    return 0;
-  }
-  const Place place = {cycle, segment->chamber, segment->direction, 0};
-  // Close to a jump the rate has no bound; a thousand times the platen's rate replaces it.
-  return 1 / fmax(rate_at(s, &place), 1e-3);
-}
-
-double sb_cycle_balance(const SbCycle *cycle, const SbCycleSegment *segment, double X, double s,
-                        double *stop_force) {
-  const SbModel *model = cycle->model;
-  double force = sb_cycle_force(cycle, X, s);
-  *stop_force = 0;
-  if (segment->mode != SB_CYCLE_STICK) {
-    return sign_of(segment->direction) *
-           sb_cycle_friction(cycle, segment->chamber, segment->direction, s);
-  }
-
-  // At a stop the friction keeps its value on arrival until the stop is unloaded.
-  double needed = force - sb_model_push(model, s);
-  bool stopped = (s >= model->stroke && needed > segment->friction0) ||
-                 (s <= 0 && needed < segment->friction0);
-  *stop_force = stopped ? needed - segment->friction0 : 0;
-  return needed - *stop_force;
-}
-
-// ---------------------------------------------------------------------------------------------------
-// Planning
 
 // State of the planner.
 typedef struct {
@@ -241,7 +32,7 @@ typedef struct {
 
 // Returns the nearest of four positions in front of the stem (NaN: none), or the stop.
 static double nearest_ahead(const Planner *p, const double marks[4]) {
-  const double sign = sign_of(p->direction);
+  const double sign = sb_cycle_sign(p->direction);
   double best = p->direction == SB_CYCLE_IN ? p->cycle->model->stroke : 0;
   for (int i = 0; i < 4; i++) {
     bool nearer = sign * marks[i] > sign * p->s && sign * marks[i] < sign * best;
@@ -269,7 +60,7 @@ static int reach(SbChamber *chamber, const Planner *p, double s) {
   int event = in && s == cycle->model->stroke && p->stage < SB_STAGE_D ? SB_STAGE_D : -1;
   *chamber = p->chamber;
   const SbPassage from = {p->chamber, p->stage, p->direction};
-  return inner_touches(cycle, p->chamber, p->direction)
+  return sb_cycle_inner_touches(cycle, p->chamber, p->direction)
              ? sb_valve_type(cycle->model)->reach(chamber, cycle, &from, s, event)
              : event;
 }
@@ -301,7 +92,8 @@ static SbStatus slip_platen(double *out, const Planner *p, int direction, double
       friction += fmax(1, grown) * sliding[seal];
     }
     const double before = X;
-    X = p->s + (sb_model_push(model, p->s) + sign_of(direction) * friction) / model->stiffness;
+    X = p->s +
+        (sb_model_push(model, p->s) + sb_cycle_sign(direction) * friction) / model->stiffness;
     X = direction == SB_CYCLE_IN ? fmax(X, p->X) : fmin(X, p->X);
     if (fabs(X - before) <= 1e-9 * fabs(X - p->s) || X <= 0) {
       *out = X;
@@ -344,8 +136,9 @@ static void emit(Planner *p, SbCycleMode mode, double X1, double s1, int event) 
 }
 
 // Jumps to the first balance ahead, or through the whole piece that ends at `end`.
-static void jump(Planner *p, const Place *place, double end) {
-  double target = excess_force(end, place) > 0 ? end : sb_bisect(excess_force, place, p->s, end);
+static void jump(Planner *p, const SbCyclePlace *place, double end) {
+  double target =
+      sb_cycle_excess_at(end, place) > 0 ? end : sb_bisect(sb_cycle_excess_at, place, p->s, end);
   emit(p, SB_CYCLE_JUMP, p->X, target, -1);
 }
 
@@ -363,9 +156,9 @@ static void slide(Planner *p) {
   double k = model->stiffness;
   bool out = p->direction == SB_CYCLE_OUT;
   while (!p->full && p->s != (out ? 0 : model->stroke)) {
-    const Place place = {p->cycle, p->chamber, p->direction, p->X};
-    double balance = balance_at(p->s, &place);
-    double excess = sign_of(p->direction) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
+    const SbCyclePlace place = {p->cycle, p->chamber, p->direction, p->X};
+    double balance = sb_cycle_balance_at(p->s, &place);
+    double excess = sb_cycle_sign(p->direction) * (sb_cycle_force(p->cycle, p->X, p->s) - balance);
     double noise = 1e-12 * (fabs(balance) + fabs(sb_model_push(model, p->s))) +
                    8 * 2.3e-16 * k * (p->X + p->s);
     double end = piece_end(p);
@@ -373,9 +166,9 @@ static void slide(Planner *p) {
     if (excess < -noise || (out && is_held(p))) {
       return; // resistance has risen above the force: the stem sticks
     }
-    if (out && reserve_at(end, &place) < 0) {
+    if (out && sb_cycle_reserve_at(end, &place) < 0) {
       // Static friction exceeds the push inside this piece: the stem comes to rest there.
-      end = sb_bisect(reserve_at, &place, p->s, end);
+      end = sb_bisect(sb_cycle_reserve_at, &place, p->s, end);
       if (end == p->s) {
         return;
       }
@@ -388,9 +181,9 @@ static void slide(Planner *p) {
     // Balanced sliding, up to where dX/ds changes sign (the middle of the edge is a piece end, so
     // the slope is monotonic and there is at most one such point).
     double turn = end;
-    bool unstable_end = rate_at(end - (end - p->s) * 1e-9, &place) <= 0;
-    if (rate_at(p->s, &place) > 0 && unstable_end) {
-      turn = sb_bisect(rate_at, &place, p->s, end);
+    bool unstable_end = sb_cycle_rate_at(end - (end - p->s) * 1e-9, &place) <= 0;
+    if (sb_cycle_rate_at(p->s, &place) > 0 && unstable_end) {
+      turn = sb_bisect(sb_cycle_rate_at, &place, p->s, end);
     } else if (unstable_end) {
       turn = p->s;
     }
@@ -400,7 +193,7 @@ static void slide(Planner *p) {
       jump(p, &place, end);
       continue;
     }
-    emit(p, SB_CYCLE_SLIP, turn + balance_at(turn, &place) / k, turn, -1);
+    emit(p, SB_CYCLE_SLIP, turn + sb_cycle_balance_at(turn, &place) / k, turn, -1);
   }
 }
 
@@ -415,7 +208,7 @@ static bool is_open(const SbCycle *cycle, SbChamber closed, int direction, doubl
   const bool beyond = sb_valve_type(cycle->model)->open_beyond;
   const double edge = beyond ? sb_cycle_edge_end(cycle, closed, direction)
                              : sb_cycle_edge_begin(cycle, closed, direction);
-  return !inner_touches(cycle, closed, direction) || (s >= edge) == beyond;
+  return !sb_cycle_inner_touches(cycle, closed, direction) || (s >= edge) == beyond;
 }
 
 // The chamber at s on the return, with one state of the closed chamber.
@@ -425,18 +218,20 @@ static SbChamber chamber_at(const SbCycle *cycle, SbChamber closed, double s) {
 
 // Minimum of `margin` over the return path from `top`, with one state of the closed chamber.
 static double least_over(const SbCycle *cycle, SbFunction margin, SbChamber closed, double top) {
-  const bool touches = inner_touches(cycle, closed, SB_CYCLE_OUT);
+  const bool touches = sb_cycle_inner_touches(cycle, closed, SB_CYCLE_OUT);
   const double begin = touches ? sb_cycle_edge_begin(cycle, closed, SB_CYCLE_OUT) : 0;
   const double end = touches ? sb_cycle_edge_end(cycle, closed, SB_CYCLE_OUT) : 0;
   const double ends[] = {0, top, fmin(top, end)};
   double least = INFINITY;
   for (size_t i = 0; i < sizeof ends / sizeof *ends; i++) {
     const double s = fmax(ends[i], 0);
-    least = fmin(least, margin(s, &(Place){cycle, chamber_at(cycle, closed, s), SB_CYCLE_OUT, 0}));
+    least = fmin(least,
+                 margin(s, &(SbCyclePlace){cycle, chamber_at(cycle, closed, s), SB_CYCLE_OUT, 0}));
   }
   for (int i = 0; touches && i <= EDGE_PLACES; i++) {
     const double s = fmin(top, begin + (end - begin) * i / EDGE_PLACES);
-    least = s >= 0 ? fmin(least, margin(s, &(Place){cycle, closed, SB_CYCLE_OUT, 0})) : least;
+    least =
+        s >= 0 ? fmin(least, margin(s, &(SbCyclePlace){cycle, closed, SB_CYCLE_OUT, 0})) : least;
   }
   return least;
 }
@@ -461,11 +256,11 @@ double sb_cycle_first_reserve(const SbCycle *cycle, double top) {
 }
 
 double sb_cycle_sliding_margin(const SbCycle *cycle, double top) {
-  return least_of(cycle, balance_at, top);
+  return least_of(cycle, sb_cycle_balance_at, top);
 }
 
 double sb_cycle_return_margin(const SbCycle *cycle, double top) {
-  return least_of(cycle, reserve_at, top);
+  return least_of(cycle, sb_cycle_reserve_at, top);
 }
 
 // Follows the in-stroke: the stem sticks until the static limit, slides, and again, until the stop;
@@ -507,7 +302,8 @@ static SbStatus release(Planner *p, double dwell, SbReport *report) {
   const SbModel *model = cycle->model;
   const double k = model->stiffness;
   while (!p->full && p->X > 0) {
-    const double limit = balance_at(p->s, &(Place){cycle, p->chamber, SB_CYCLE_OUT, 0});
+    const double limit =
+        sb_cycle_balance_at(p->s, &(SbCyclePlace){cycle, p->chamber, SB_CYCLE_OUT, 0});
     double X_slip = p->s + limit / k;
     if (model->contact_ageing) {
       SbStatus status = slip_platen(&X_slip, p, SB_CYCLE_OUT, dwell, report);
@@ -546,7 +342,8 @@ SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report) {
   // Return: the platen moves back to X = 0; the stem follows while the push exceeds static
   // friction. The dwell at the stop ends when the push alone carries the platen's force.
   p.platen = -1;
-  const double pushed = balance_at(p.s, &(Place){cycle, p.chamber, SB_CYCLE_OUT, 0});
+  const double pushed =
+      sb_cycle_balance_at(p.s, &(SbCyclePlace){cycle, p.chamber, SB_CYCLE_OUT, 0});
   cycle->dwell = (p.X - stopped + fmax(p.X - p.s - fmax(pushed, 0) / k, 0)) / model->speed;
   status = sb_cycle_rest(cycle, cycle->dwell, report);
   if (status != SB_OK) {
@@ -599,7 +396,7 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
   *out = (SbEnergy){0};
   for (size_t i = 0; i < cycle->count; i++) {
     const SbCycleSegment *segment = rule.segment = &cycle->segment[i];
-    const Place place = {cycle, segment->chamber, segment->direction, segment->platen0};
+    const SbCyclePlace place = {cycle, segment->chamber, segment->direction, segment->platen0};
     double ds = segment->stem1 - segment->stem0;
     double X0 = segment->platen0;
     double X1 = segment->platen1;
@@ -608,14 +405,15 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
     double corner = segment->mode == SB_CYCLE_STICK
                         ? fmin(fmax(segment->stem0, fmin(X0, X1)), fmax(X0, X1))
                         : X1;
-    double rubbed = fabs(integral(&rule, segment->stem0, segment->stem1, friction_at, &place));
+    double rubbed =
+        fabs(integral(&rule, segment->stem0, segment->stem1, sb_cycle_friction_at, &place));
     // A stem that jumps ahead of the platen leaves it at s = X, where the force has a corner too.
     const double leaves =
         fmin(fmax(X0, fmin(segment->stem0, segment->stem1)), fmax(segment->stem0, segment->stem1));
     if (segment->mode == SB_CYCLE_JUMP) {
-      out->seal += sign_of(place.direction) *
-                   (integral(&rule, segment->stem0, leaves, excess_force, &place) +
-                    integral(&rule, leaves, segment->stem1, excess_force, &place));
+      out->seal += sb_cycle_sign(place.direction) *
+                   (integral(&rule, segment->stem0, leaves, sb_cycle_excess_at, &place) +
+                    integral(&rule, leaves, segment->stem1, sb_cycle_excess_at, &place));
     } else {
       out->external += integral(&rule, X0, corner, force_of_platen, &rule) +
                        integral(&rule, corner, X1, force_of_platen, &rule);

@@ -476,3 +476,15 @@ const SbModel *sb_run_model(const SbRun *run) {
 const SbPlan *sb_run_plan(const SbRun *run) {
   return &run->plan;
 }
+
+void sb_run_add_counters(SbCounters *sum, const SbCounters *more) {
+  sum->fit_solves += more->fit_solves;
+  sum->disc_solves += more->disc_solves;
+  sum->ring_solves += more->ring_solves;
+  sum->reynolds_solves += more->reynolds_solves;
+  sum->speed_nodes += more->speed_nodes;
+  sum->newton_iterations += more->newton_iterations;
+  sum->film_steps += more->film_steps;
+  sum->field_evaluations += more->field_evaluations;
+  sum->profile_evaluations += more->profile_evaluations;
+}

@@ -1,5 +1,5 @@
 // The drive of the valve in a run with inertia: the catalogue's drive.* as mechanism/drive.h.
-#include "engine/valve/run/run_private.h"
+#include "engine/valve/run/run_valve.h"
 
 #include <math.h>
 

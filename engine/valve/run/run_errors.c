@@ -413,3 +413,8 @@ SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report) {
   }
   return status;
 }
+
+double sb_run_error_friction(const SbRun *run) {
+  double peak = run->summary.force_peak;
+  return peak > 0 ? SB_SEAL_COUNT * fmax(run->friction_error, run->static_error) / peak : 0;
+}

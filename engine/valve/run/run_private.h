@@ -182,16 +182,20 @@ struct SbRun {
 // Sets run->own_work to a new budget of output.work_limit steps that the hooks can cancel (run.c).
 void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks);
 
+// Solves all states of the plan at run->speed, on a thread for each seal if rings are solved.
+// Errors of sb_run_solve_states().
+SbStatus sb_run_solve_all(SbRun *run, const SbRunHooks *hooks, SbReport *report);
+
 // Solves all steady states that the plan needs, and its profiles and shapes: at the machine's
 // speed, or with another drive at the stem's speed in the middle of B-C, which it finds first. Sets
-// cycle.state, speed, mid_speed, errors and lacks (run_states.c).
+// cycle.state, speed, mid_speed, errors and lacks (run_own_speed.c).
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Stores the solved states in run->solved, if `status`, that of sb_run_solve_states(), is SB_OK and
-// the plan allows their reuse (run_states.c).
+// the plan allows their reuse (run_own_speed.c).
 void sb_run_store_states(SbRun *run, SbStatus status);
 
-// Copies the states of run->solved to the run, instead of sb_run_solve_states() (run_states.c).
+// Copies the states of run->solved to the run, instead of sb_run_solve_states() (run_own_speed.c).
 void sb_run_restore_states(SbRun *run);
 
 // Adds *more to *sum.
@@ -220,6 +224,11 @@ enum { SB_PROFILE_ROWS = 5 };
 // Returns the view of SB_PROFILE_ROWS consecutive rows of `count` numbers: x, pressure, film,
 // asperity pressure, film pressure (NaN: no film was solved). `rows` and `model` are borrowed.
 SbContactProfile sb_run_profile_view(const double *rows, size_t count, const char *model);
+
+// Sets the profile of a state whose seal's memory has just solved it: pressure and film over its
+// contact, under `pressure`.
+SbStatus sb_run_make_profile(SbRun *run, int seal, int chamber, int motion, SbSealPressure pressure,
+                             const SbSealState *state, SbReport *report);
 
 // Returns the index in run->profile of the profile of a seal in a chamber state and motion.
 uint32_t sb_run_profile_slot(int seal, int chamber, int motion);
@@ -378,46 +387,10 @@ void sb_run_progress(const SbRun *run, const SbRunHooks *hooks, double fraction,
 // Returns whether the hooks cancel the run, and fills the report then.
 bool sb_run_cancelled(const SbRunHooks *hooks, SbReport *report);
 
-// ---- Motion: the valve as a mechanism and its frames (run_valve.c), its drive (run_drive.c)
+// ---- Motion: frames (run_frames.c), states by speed (run_speeds.c), parts (run_bodies.c)
 
 // Indices of stops.
 enum { SB_REST_STOP = 0, SB_END_STOP = 1 };
-
-// Times of a drive.
-typedef struct {
-  double duration; // of the whole drive [s]; frames are evenly spaced over it
-  double turn;     // a reverse slip after this time is the return, before it a rebound [s]
-  bool ends_run;   // the run ends with the drive, without waiting for rest
-  // Instants at which the platen turns or the slope of the finger's force changes; a frame is
-  // placed at each. `first` are those of the first period; they repeat with `period` until there
-  // are `corners`.
-  int corners;
-  double period, first[2]; // [s]
-} SbDriveTimes;
-
-// The valve as the motion sees it; user data of the callbacks of SbDynamicsModel.
-typedef struct {
-  SbRun *run;
-  bool both_alike;   // both ways have the same friction at speed 0
-  SbChamber chamber; // state of the chamber at the present instant
-  bool touches;      // the inner seal has contact
-  SbChamberEdges edges;
-  double middle; // stem displacement of the middle of B-C and of F-A [m]
-  // Cache by chamber state: displacement last requested, and fractions of the inner contact on the
-  // land.
-  double land_at[SB_CYCLE_CHAMBERS];
-  SbLandShare land[SB_CYCLE_CHAMBERS];
-  bool varies[SB_DYNAMICS_EDGES + 1]; // regions in which the land's edge is under the contact
-  double edge[SB_DYNAMICS_EDGES];     // edges of the mechanism [m]
-  SbDriveTimes times;
-  bool ports; // the chamber's pressure is an extra state
-  SbChamberModel chamber_model;
-  SbDoseChamber dose;
-} SbValve;
-
-// Sets *valve and *out, the mechanism of the run's model for dynamics.h. *valve is its user data
-// and must exist as long as *out is used. SB_ERROR_INFEASIBLE: ports contradict each other.
-SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report);
 
 // Which steady states apply at an instant, as indices of SbCycle.state.
 typedef struct {
@@ -473,14 +446,6 @@ SbStatus sb_run_close_speeds(SbRun *run, SbReport *report);
 // Frees all states by speed.
 void sb_run_free_speeds(SbRun *run);
 
-// Returns the states that apply to the valve's present chamber, with the stem's last `direction` of
-// sliding (a way) and the chamber's pressure [Pa].
-SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure);
-
-// Returns the chamber pressure [Pa] from the mechanism's extra state `extra`; without ports from
-// the state of the chamber.
-double sb_valve_chamber_pressure(const SbValve *valve, double extra);
-
 // One instant of a motion.
 typedef struct {
   SbDynamicsSample sample; // acceleration, deflections and region may be unset
@@ -523,6 +488,3 @@ SbStatus sb_run_bodies_move(double *mass, SbRun *run, double x, double v, SbRepo
 // sb_run_bodies_move() and sb_assembly_forces().
 SbStatus sb_run_bodies_frame(SbRun *run, size_t index, const SbDynamicsSample *sample,
                              SbReport *report);
-
-// Sets drive and start position in *out, and *times.
-void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *run);

@@ -1,17 +1,8 @@
-// Steady contact states of a run and their profiles: each is solved once and shared by all frames.
+// Steady contact states of a run: each is solved once and shared by all frames.
 //
-// The thesis' machine has one speed, and drive.speed is it. A finger, a spring, a sinusoid have
-// none: how fast the stem slides follows from the friction, which is known over the speed
-// (run_speeds.c). Profiles and figures are those of the stem's speed at the middle of B-C, found by
-// running the motion without frames. Solved rings take seconds: their profiles are those of that
-// speed in the same valve with the thesis' closed forms, and only the figures of its own; where the
-// section is no circle, which closed forms do not know, they are those of drive.speed.
-//
-// The two seals share nothing until then: where their rings are solved, each has a thread, and what
-// both add to the run is joined in the seals' order, so that results do not depend on the threads.
-// The one that is done first solves rings for the other (run_ahead.h).
-#include "engine/contact/rough/greenwood_tripp.h"
-#include "engine/numeric/root.h"
+// The two seals share nothing: where their rings are solved, each has a thread, and what both add
+// to the run is joined in the seals' order, so that results do not depend on the threads. The one
+// that is done first solves rings for the other (run_ahead.h).
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_ahead.h"
 #include "engine/valve/run/run_private.h"
@@ -21,23 +12,6 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-
-enum { OUTSIDE_POINTS = 60, PROFILE_POINTS = SB_FIT_PROFILE_MAX + 2 * OUTSIDE_POINTS };
-
-int sb_run_first_equal_chamber(const SbRun *run, int seal, int chamber) {
-  SbSealPressure p = sb_model_seal_pressure(run->model, seal, (SbChamber)chamber);
-  for (int c = 0; c < chamber; c++) {
-    SbSealPressure q = sb_model_seal_pressure(run->model, seal, (SbChamber)c);
-    if (run->cycle.state[seal][c][SB_CYCLE_IN].touches && p.left == q.left && p.right == q.right) {
-      return c;
-    }
-  }
-  return chamber;
-}
-
-uint32_t sb_run_profile_slot(int seal, int chamber, int motion) {
-  return (uint32_t)((seal * SB_CYCLE_CHAMBERS + chamber) * SB_RUN_MOTIONS + motion);
-}
 
 // A seal's states in work, and what they add to the run.
 typedef struct {
@@ -63,186 +37,6 @@ typedef struct {
   SbSealPressure pressure;
   SbSealState *state;
 } Task;
-
-SbContactProfile sb_run_profile_view(const double *rows, size_t count, const char *model) {
-  const double *film_pressure = rows + 4 * count;
-  const bool solved = count > 0 && isfinite(film_pressure[0]);
-  return (SbContactProfile){
-      .count = count,
-      .x = rows,
-      .pressure = rows + count,
-      .film = rows + 2 * count,
-      .asperity_pressure = rows + 3 * count,
-      .model = model,
-      .film_pressure = solved ? film_pressure : NULL,
-      .film_model = solved ? "reynolds" : model,
-  };
-}
-
-// Contact pressure of the fitment at x, by straight lines; the fluid's outside the contact.
-static double fit_pressure(const SbFit *fit, double x, double left, double right) {
-  size_t n = fit->profile_count;
-  if (n < 2 || x <= fit->profile_x[0]) {
-    return left;
-  }
-  if (x >= fit->profile_x[n - 1]) {
-    return right;
-  }
-  size_t low = sb_interval(fit->profile_x, n, x), high = low + 1;
-  double span = fit->profile_x[high] - fit->profile_x[low];
-  double t = span > 0 ? (x - fit->profile_x[low]) / span : 0;
-  return fit->profile_p[low] + t * (fit->profile_p[high] - fit->profile_p[low]);
-}
-
-// Pressure of Greenwood and Tripp's asperities at the local film (thesis equation 5.12). The film
-// still carries this load too (sliding.h): the pressure is shown in addition to the film's.
-static void asperity_pressure(const SbModel *model, int seal, const double *film, double *out,
-                              size_t n) {
-  double last = NAN;
-  double pressure = 0;
-  for (size_t i = 0; i < n; i++) {
-    // F_5/2 changes by less than 2e-4 over this step; the flat of the film then costs one integral.
-    double lambda = film[i] / model->sigma;
-    if (!(fabs(lambda - last) < 1e-4)) {
-      pressure = sb_gt_pressure(model->gt_product, model->sigma_over_beta,
-                                model->seal[seal].reduced_modulus, lambda);
-      last = lambda;
-    }
-    out[i] = pressure;
-  }
-}
-
-// Contact pressure of the fitment at the points x. Between them the fitment's peak may fall: the
-// curve is stretched, by less than 1e-3 for 100 points in the contact, so that its maximum is the
-// peak that every other surface reports. The fluid's pressure acts where the fitment's is below it.
-static void contact_pressure(double *out, const SbFit *fit, const double *x, size_t n, double left,
-                             double right) {
-  const double middle = (fit->contact_left + fit->contact_right) / 2;
-  double largest = 0;
-  for (size_t i = 0; i < n; i++) {
-    out[i] = fit_pressure(fit, x[i], left, right);
-    largest = fmax(largest, out[i]);
-  }
-  const double factor = largest > fmax(left, right) ? fit->pressure_peak / largest : 1;
-  for (size_t i = 0; i < n; i++) {
-    out[i] = fmax(factor * out[i], x[i] < middle ? left : right);
-  }
-}
-
-// Writes the points of a solved film. `scale`: those of the half-plane, from its contact to the
-// fitted one of the middle `middle` and the half-width `half` [m].
-static size_t film_rows(double *x, double *pressure, double *h, const SbFilm *film, double low,
-                        bool scale, double middle, double half) {
-  const double stretch = half / film->hertz_half_width;
-  for (size_t i = 0; i < film->points; i++) {
-    x[i] = scale ? middle + stretch * film->x[i] : film->x[i];
-    pressure[i] = film->pressure[i] - low;
-    h[i] = film->film[i];
-  }
-  return film->points;
-}
-
-// Writes x and the film of a fitted contact without a solved film to `x` and `h`: points on both
-// sides of the contact and those of the fit between them. Returns their number.
-static size_t dry_rows(double *x, double *h, const SbRun *run, int seal, const SbFit *fit,
-                       double film) {
-  const SbContactLaw *law = sb_contact_law(run->model);
-  const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
-  size_t n = 0;
-  for (int i = -OUTSIDE_POINTS; i <= OUTSIDE_POINTS; i++) {
-    double xi = 1 + pow(i / (double)OUTSIDE_POINTS, 2);
-    for (size_t k = 0; i == 0 && k < fit->profile_count; k++) {
-      x[n] = fit->profile_x[k];
-      h[n++] = film;
-    }
-    if (i != 0) {
-      x[n] = middle + copysign(xi * a, i);
-      h[n++] = film + law->dry_gap(run->model, seal, xi, a);
-    }
-  }
-  return n;
-}
-
-// Writes the pressure of a gasket's asperities: that of the contact `p` above the fluid's.
-static SbStatus edge_asperities(double *out, const double *x, const double *p, size_t n,
-                                const Task *task, double middle, SbReport *report) {
-  const double low = fmin(task->pressure.left, task->pressure.right);
-  for (size_t i = 0; i < n; i++) {
-    const double fluid = (x[i] < middle ? task->pressure.left : task->pressure.right) - low;
-    out[i] = fmax(p[i] - fluid, 0);
-  }
-  return sb_sliding_edge_asperities(out, out, n, task->run->model, task->seal,
-                                    task->state->film_central, report);
-}
-
-// Puts rows that are `capacity` apart next to each other, and replaces the profile by them.
-static void store_profile(SbRunProfile *profile, double *x, size_t n, size_t capacity,
-                          const SbModel *model) {
-  free(profile->data);
-  profile->data = x;
-  for (size_t row = 1; row < SB_PROFILE_ROWS && n < capacity; row++) {
-    memmove(x + row * n, x + row * capacity, n * sizeof *x);
-  }
-  profile->view = sb_run_profile_view(x, n, sb_fit_kind(model->fit)->name);
-}
-
-// Pressure and film over one contact, from what the seal's memory has just solved. The pressure is
-// the fitment's. A solved film is the solver's own, on the fitted body where the fitment gives one,
-// and has a pressure of its own; of a closed form the central film is uniform in the contact (the
-// law has no shape), with the dry gap outside.
-static SbStatus make_profile(const Task *task, SbReport *report) {
-  SbRun *run = task->run;
-  const int seal = task->seal;
-  const SbSealState *state = task->state;
-  const SbSealPressure pressure = task->pressure;
-  SbRunProfile *profile = &run->profile[sb_run_profile_slot(seal, task->chamber, task->motion)];
-  const SbFit *fit = sb_sliding_fit(run->memory[seal]);
-  const SbFilm *film = sb_sliding_film(run->memory[seal]);
-  const SbContactLaw *law = sb_contact_law(run->model);
-  bool solved = sb_contact_solves_film(run->model) && state->film_central > 0;
-  bool fitted = state->touches && isfinite(state->load);
-  const bool own_pressure = sb_fit_kind(run->model->fit)->points;
-  // No film on the fitted body: the half-plane's is scaled from its contact to the fitted one.
-  const bool scaled = solved && own_pressure && !state->film_fitted;
-  size_t capacity = solved ? film->points : (size_t)PROFILE_POINTS, n = 0;
-  double *x = calloc(SB_PROFILE_ROWS * capacity, sizeof *x);
-  if (x == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for a profile");
-  }
-  double *p = x + capacity, *h = x + 2 * capacity, *asperities = x + 3 * capacity;
-  double *film_pressure = x + 4 * capacity;
-  const double low = fmin(pressure.left, pressure.right);
-  const double left = pressure.left - low, right = pressure.right - low;
-  const double middle = (fit->contact_left + fit->contact_right) / 2, a = fit->contact_width / 2;
-  if (solved) {
-    n = film_rows(x, film_pressure, h, film, low, scaled, middle, a);
-    if (fitted) {
-      contact_pressure(p, fit, x, n, left, right);
-    } else {
-      memcpy(p, film_pressure, n * sizeof *p);
-    }
-  } else if (fitted) {
-    n = dry_rows(x, h, run, seal, fit, state->film_central);
-    contact_pressure(p, fit, x, n, left, right);
-  }
-  for (size_t i = 0; !solved && i < n; i++) {
-    film_pressure[i] = NAN;
-  }
-  if (solved && law->shares) {
-    memcpy(asperities, film->asperity_pressure, n * sizeof *asperities);
-  } else if (law->closed_film && fitted) {
-    SbStatus status = edge_asperities(asperities, x, p, n, task, middle, report);
-    if (status != SB_OK) {
-      free(x);
-      return status;
-    }
-  } else if (fitted && sb_rough_kind(run->model->surface)->asperities) {
-    asperity_pressure(run->model, seal, h, asperities, n);
-  }
-  store_profile(profile, x, n, capacity, run->model);
-  task->lane->counters.profile_evaluations++;
-  return SB_OK;
-}
 
 // Returns whether the plan needs this state and the cycle can reach it: the outer seal does in
 // every chamber state, the inner one slides only while it is on the land.
@@ -301,11 +95,6 @@ static void report_failure(const Task *task, SbReport *report) {
   if (task->chamber == SB_CHAMBER_AT_REST && task->motion == SB_CYCLE_IN) {
     task->lane->failed = *report;
   }
-}
-
-double sb_run_error_friction(const SbRun *run) {
-  double peak = run->summary.force_peak;
-  return peak > 0 ? SB_SEAL_COUNT * fmax(run->friction_error, run->static_error) / peak : 0;
 }
 
 static bool cancelled(void *data) {
@@ -468,7 +257,10 @@ static SbStatus solve_state(const Task *of, SbReport *report) {
   lane->static_error = fmax(lane->static_error, state->static_error);
   lane->error_film = fmax(lane->error_film, state->film_error);
   const SbRing *ring = sb_sliding_ring(memory);
-  SbStatus kept = run->plan.profiles ? make_profile(of, report) : SB_OK;
+  SbStatus kept = run->plan.profiles ? sb_run_make_profile(run, of->seal, of->chamber, of->motion,
+                                                           of->pressure, state, report)
+                                     : SB_OK;
+  lane->counters.profile_evaluations += run->plan.profiles && kept == SB_OK ? 1 : 0;
   if (kept == SB_OK && run->plan.section_fields && ring != NULL && state->load > 0) {
     kept = keep_shapes(of, ring, report);
   }
@@ -625,18 +417,6 @@ static void solve_together(Lane *first, Lane *second) {
   pthread_mutex_destroy(&beside.lock);
 }
 
-void sb_run_add_counters(SbCounters *sum, const SbCounters *more) {
-  sum->fit_solves += more->fit_solves;
-  sum->disc_solves += more->disc_solves;
-  sum->ring_solves += more->ring_solves;
-  sum->reynolds_solves += more->reynolds_solves;
-  sum->speed_nodes += more->speed_nodes;
-  sum->newton_iterations += more->newton_iterations;
-  sum->film_steps += more->film_steps;
-  sum->field_evaluations += more->field_evaluations;
-  sum->profile_evaluations += more->profile_evaluations;
-}
-
 // Adds a lane's to the run.
 static void join(SbRun *run, Lane *lane) {
   SbSummary *summary = &run->summary;
@@ -664,7 +444,7 @@ static void join(SbRun *run, Lane *lane) {
   summary->ring_order = fmax(summary->ring_order, lane->order);
 }
 
-static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
+SbStatus sb_run_solve_all(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   summary->error_film = NAN;
   summary->error_load = summary->error_width = 0;
@@ -714,107 +494,4 @@ static SbStatus solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   free(lane);
   return status;
-}
-
-// Speed of the same valve with closed forms, for a run of solved rings.
-static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  static const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
-                                      {SB_P_MODELS_FILM, SB_FILM_THESIS}};
-  SbModel *model;
-  SbRun *proxy = NULL;
-  SbStatus status = sb_model_derive(&model, run->model, closed, 2, report);
-  status = status == SB_OK ? sb_run_create(&proxy, model, &run->plan, report) : status;
-  sb_model_destroy(model);
-  if (status != SB_OK) {
-    return status;
-  }
-  proxy->work = run->work;
-  SbPlan *plan = &proxy->plan;
-  plan->ring = plan->section_fields = plan->profiles = plan->film_history = false;
-  status = sb_run_solve_states(proxy, hooks, report);
-  run->speed = proxy->speed;
-  sb_run_destroy(proxy);
-  return status == SB_ERROR_CANCELLED ? status : SB_OK;
-}
-
-SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
-  const SbModel *model = run->model;
-  SbWarnings *warnings = &run->summary.warnings;
-  SbStatus status = SB_OK;
-  run->speed = model->speed;
-  bool own = run->plan.motion && run->plan.inertia && model->drive != SB_MODEL_DRIVE_MACHINE;
-  if (own && run->plan.ring && model->profile == SB_SEAL_PROFILE_CIRCLE) {
-    status = proxy_speed(run, hooks, report);
-  }
-  // The states only append warnings (sb_warnings_merge()).
-  const size_t before = warnings->count, dropped = warnings->dropped;
-  status = status == SB_OK ? solve_states(run, hooks, report) : status;
-  run->mid_speed = run->back_speed = run->speed;
-  if (!own || (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) || run->lacks.status != SB_OK) {
-    return status;
-  }
-  double speed;
-  bool slips;
-  // Errors of the motion are reported by the run itself.
-  SbStatus motion = sb_run_dynamic_speed(&speed, &slips, run, hooks, NULL);
-  if (motion == SB_ERROR_CANCELLED) {
-    return sb_fail(report, motion, "cancelled");
-  }
-  if (speed == 0 && slips) {
-    sb_warn(warnings, "film-speed", sb_input(SB_P_DRIVE_SPEED),
-            "the stem does not pass two stages, so its speed is not defined: the seals' figures "
-            "are those "
-            "at drive.speed, %.3g mm/s",
-            1e3 * run->speed);
-  }
-  run->back_speed = run->back_speed > 0 ? run->back_speed : run->speed;
-  run->mid_speed = speed > 0 ? speed : run->speed;
-  if (!run->plan.ring && run->mid_speed != run->speed) {
-    run->speed = run->mid_speed;
-    warnings->count = before;
-    warnings->dropped = dropped;
-    status = solve_states(run, hooks, report);
-  }
-  return status;
-}
-
-// A life changes them, and a stem that finds its own speed has them at another.
-void sb_run_store_states(SbRun *run, SbStatus status) {
-  const SbPlan *plan = &run->plan;
-  const bool own = plan->inertia && run->model->drive != SB_MODEL_DRIVE_MACHINE;
-  SbRunSolved *out = &run->solved;
-  const SbSummary *summary = &run->summary;
-  out->solved = status == SB_OK && !own && !plan->life && !plan->profiles && !plan->film_history;
-  if (out->solved) {
-    out->cycle = run->cycle;
-    out->friction_error = run->friction_error;
-    out->static_error = run->static_error;
-    out->error_film = summary->error_film;
-    out->error_load = summary->error_load;
-    out->error_width = summary->error_width;
-    out->lacks = run->lacks;
-    out->counters = summary->counters;
-    out->warnings = summary->warnings;
-  }
-}
-
-void sb_run_restore_states(SbRun *run) {
-  const SbRunSolved *from = &run->solved;
-  SbSummary *summary = &run->summary;
-  run->cycle = from->cycle;
-  run->cycle.model = run->model;
-  run->friction_error = from->friction_error;
-  run->static_error = from->static_error;
-  summary->error_film = from->error_film;
-  summary->error_load = from->error_load;
-  summary->error_width = from->error_width;
-  run->lacks = from->lacks;
-  summary->counters = from->counters;
-  summary->warnings = from->warnings;
-  SbSpeedStates *const *table = &run->speeds[0][0][0];
-  for (size_t i = 0; i < sizeof run->speeds / sizeof *table; i++) {
-    if (table[i] != NULL) {
-      table[i]->task.model = run->model;
-    }
-  }
 }

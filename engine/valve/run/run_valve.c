@@ -1,5 +1,5 @@
 // The valve as a mechanism with one coordinate (mechanism/dynamics.h) and, with ports, one chamber
-// pressure (mechanism/chamber.h); and the frame of an instant of any motion.
+// pressure (mechanism/chamber.h).
 //
 // The sliding states of the quasi-static cycle at all speeds (run_speeds.c) give each seal's
 // friction. Its level is that without a film, tau_0 A_a(0) + m W. The decrease by the film and the
@@ -9,15 +9,7 @@
 // the vented and the filled chamber, in proportion to its pressure.
 //
 // Contacts that age (friction.breakaway) have the law of the state that applies to their chamber.
-//
-// Ports by position. With y outwards from the land's edge and the contacts' edges l < r in each
-// seal's frame, the inner contact starts at y = s_C - s and the outer ends of the chamber are at
-// s_C - s + (r - l)_inner and s_C - s - l_inner + spacing + l_outer. The chamber is connected to
-// the canister when the inner contact has left the land, to the vent while any of the hole is
-// between the two contacts (fully open or closed), and to the canister through a by-pass below
-// bore.refill_travel.
-#include "engine/valve/model/motion_kind.h"
-#include "engine/valve/run/run_private.h"
+#include "engine/valve/run/run_valve.h"
 #include "engine/valve/run/valve_type.h"
 #include "engine/valve/states/breakaway.h"
 
@@ -26,12 +18,18 @@
 // Of the friction without a film.
 static const double band_tolerance = 1e-3;
 
-// Returns how close the chamber is to the state of SB_CHAMBER_CLOSED, from 0 (that of
-// SB_CHAMBER_AT_REST) to 1, by its pressure: one of both states is the full one.
-static double filling(const SbRun *run, double pressure) {
+double sb_valve_filling(const SbRun *run, double pressure) {
   double canister = run->model->canister_pressure;
   double full = canister != 0 ? fmin(fmax(pressure / canister, 0), 1) : 1;
   return sb_valve_type(run->model)->fills_at_rest ? 1 - full : full;
+}
+
+int sb_valve_passing(SbChamber chamber) {
+  return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
+}
+
+SbLandShare sb_valve_land_share(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
+  return sb_cycle_land_share(cycle, seal, chamber, sb_valve_passing(chamber), s);
 }
 
 // States between which friction is interpolated: with ports those of the vented and the filled
@@ -46,29 +44,20 @@ static Ends ends_of(const SbValve *valve, double pressure) {
   if (!valve->ports) {
     return (Ends){1, {valve->chamber}, {1}};
   }
-  double q = filling(valve->run, pressure);
+  double q = sb_valve_filling(valve->run, pressure);
   return (Ends){2, {SB_CHAMBER_AT_REST, SB_CHAMBER_CLOSED}, {1 - q, q}};
-}
-
-// Returns the direction whose state determines where a chamber's contact meets the land's edge:
-// that in which the stem passes the edge in this chamber state.
-static int passing(SbChamber chamber) {
-  return chamber == SB_CHAMBER_CLOSED ? SB_CYCLE_OUT : SB_CYCLE_IN;
-}
-
-static SbLandShare land_share(const SbCycle *cycle, int seal, SbChamber chamber, double s) {
-  return sb_cycle_land_share(cycle, seal, chamber, passing(chamber), s);
 }
 
 // Does the same for the motion, which needs it several times at each position.
 static SbLandShare land_at(SbValve *valve, int seal, SbChamber chamber, double s) {
   if (seal == SB_OUTER) {
-    double whole = valve->run->cycle.state[seal][chamber][passing(chamber)].touches ? 1 : 0;
+    double whole =
+        valve->run->cycle.state[seal][chamber][sb_valve_passing(chamber)].touches ? 1 : 0;
     return (SbLandShare){whole, whole};
   }
   if (valve->land_at[chamber] != s) {
     valve->land_at[chamber] = s;
-    valve->land[chamber] = land_share(&valve->run->cycle, seal, chamber, s);
+    valve->land[chamber] = sb_valve_land_share(&valve->run->cycle, seal, chamber, s);
   }
   return valve->land[chamber];
 }
@@ -246,16 +235,10 @@ static void valve_cross(size_t edge, int direction, double *extra, void *user) {
   }
 }
 
-static void valve_rate(double *rate, double x, double v, size_t region, const double *extra,
-                       void *user) {
-  *rate = sb_chamber_rate(&((SbValve *)user)->dose, extra[0]);
-}
-
 // ---------------------------------------------------------------------------------------------------
 // Set-up
 
-// Inserts an edge, increasing, without doubles.
-static void add_edge(SbDynamicsModel *out, double x) {
+void sb_valve_add_edge(SbDynamicsModel *out, double x) {
   size_t at = 0;
   while (at < out->edges && out->edge[at] < x) {
     at++;
@@ -270,92 +253,6 @@ static void add_edge(SbDynamicsModel *out, double x) {
   out->edges++;
 }
 
-// Refuses ports without resistance that are open to different pressures simultaneously.
-static SbStatus check_ports(const SbChamberModel *chamber, const SbModel *model, SbReport *report) {
-  for (size_t i = 0; i < chamber->ports; i++) {
-    for (size_t k = 0; k < i; k++) {
-      const SbChamberPort *a = &chamber->port[i];
-      const SbChamberPort *b = &chamber->port[k];
-      if (a->pressure != b->pressure && a->low < b->high && b->low < a->high) {
-        return sb_fail_input(
-            report, SB_ERROR_INFEASIBLE, sb_input(SB_P_CHAMBER_FLOW),
-            "the chamber would be open to canister and vent simultaneously (stem at %.3g to %.3g "
-            "mm): "
-            "a pressure between them needs chamber.flow = orifice, or other places of the vent "
-            "(bore.vent_position) and the by-pass (bore.refill_travel)",
-            1e3 * fmax(fmax(a->low, b->low), 0), 1e3 * fmin(fmin(a->high, b->high), model->stroke));
-      }
-    }
-  }
-  return SB_OK;
-}
-
-// Warns if the chamber never reaches the vent, which is open from `low` to `high` [m].
-static void warn_no_vent(const SbValve *valve, double low, double high) {
-  sb_warn(&valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
-          "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
-          "moves from 0 to %.3g mm",
-          1e3 * low, 1e3 * high, 1e3 * valve->run->model->stroke);
-}
-
-static SbStatus set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {
-  const SbModel *model = valve->run->model;
-  const SbValveType *type = sb_valve_type(model);
-  bool at_once = model->chamber_at_once;
-  double coefficient = model->discharge_coefficient;
-  double canister = model->canister_pressure;
-  SbChamberModel *chamber = &valve->chamber_model;
-  *chamber = (SbChamberModel){.canister = canister,
-                              .volume = model->supply.volume,
-                              .stiffness = model->chamber_stiffness,
-                              .density = model->density};
-
-  // The land's edge: an annulus.
-  const double annulus = model->passage_area;
-  double land_area = at_once || annulus <= 0 ? INFINITY : coefficient * annulus;
-  const bool bounded = valve->touches; // a chamber whose inner seal has no contact is always open
-  chamber->port[chamber->ports++] =
-      (SbChamberPort){bounded && type->open_beyond ? valve->edges.open : -INFINITY,
-                      bounded && !type->open_beyond ? valve->edges.open : INFINITY,
-                      SB_PORT_BOTH_WAYS, canister, land_area};
-
-  double low, high, hole = model->outlet_diameter;
-  const bool vents = type->vent(&low, &high, &valve->run->cycle);
-  if (hole > 0 && !vents && !type->fills_at_rest) {
-    warn_no_vent(valve, low, high);
-  }
-  if (vents) {
-    chamber->port[chamber->ports++] =
-        (SbChamberPort){low, high, model->vent_on_return ? SB_PORT_ON_RETURN : SB_PORT_BOTH_WAYS, 0,
-                        at_once ? INFINITY : coefficient * M_PI / 4 * hole * hole};
-  }
-
-  // The by-pass at rest.
-  if (model->refill_travel > 0) {
-    chamber->port[chamber->ports++] =
-        (SbChamberPort){-INFINITY, model->refill_travel, SB_PORT_BOTH_WAYS, canister,
-                        at_once ? INFINITY : coefficient * model->refill_area};
-  }
-  SbStatus status = sb_chamber_check(chamber, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  status = at_once ? check_ports(chamber, model, report) : SB_OK;
-  if (status != SB_OK) {
-    return status;
-  }
-  for (size_t i = 0; i < chamber->ports; i++) {
-    add_edge(out, chamber->port[i].low);
-    add_edge(out, chamber->port[i].high);
-  }
-  out->extra_rate = valve_rate;
-  out->extra_scale = fmax(fabs(canister), 1e3);
-  double pressure = canister;
-  sb_chamber_start(&valve->dose, chamber, out->start_position, &pressure);
-  out->extra_start = sb_chamber_rest_pressure(&valve->dose, pressure);
-  return SB_OK;
-}
-
 static SbStatus valve_mass(double *mass, double x, double v, void *user, SbReport *report) {
   const SbValve *valve = user;
   return sb_run_bodies_move(mass, valve->run, x, v, report);
@@ -365,7 +262,7 @@ static SbStatus valve_mass(double *mass, double x, double v, void *user, SbRepor
 // steady states of decreasing speed, the last of which has no film: static friction is at least the
 // dry level.
 static SbStatus set_rest(SbRun *run, int seal, SbChamber chamber, SbReport *report) {
-  const SbSealState *state = &run->cycle.state[seal][chamber][passing(chamber)];
+  const SbSealState *state = &run->cycle.state[seal][chamber][sb_valve_passing(chamber)];
   const double level = state->rest_area + state->rest_load;
   SbDwellLaw *law = &run->rest[seal][chamber];
   double squeeze_time;
@@ -421,12 +318,12 @@ static void set_edges(SbDynamicsModel *out, SbValve *valve, const SbRun *run, do
   }
   double closed = sb_cycle_edge_begin(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
   *near = fmin(model->land_edge, closed);
-  add_edge(out, closed);
+  sb_valve_add_edge(out, closed);
   const double end_open = sb_cycle_edge_end(cycle, SB_CHAMBER_AT_REST, SB_CYCLE_IN);
   const double end_closed = sb_cycle_edge_end(cycle, SB_CHAMBER_CLOSED, SB_CYCLE_OUT);
   *far = fmax(end_open, end_closed);
-  add_edge(out, end_open);
-  add_edge(out, end_closed);
+  sb_valve_add_edge(out, end_open);
+  sb_valve_add_edge(out, end_closed);
   const bool beyond = sb_valve_type(model)->open_beyond;
   valve->edges.open = beyond ? end_open : model->land_edge;
   valve->edges.closed = beyond ? end_closed : closed;
@@ -436,10 +333,10 @@ static void set_edges(SbDynamicsModel *out, SbValve *valve, const SbRun *run, do
   }
   // Where the seals' figures are taken.
   valve->middle = model->land_edge / 2;
-  add_edge(out, valve->middle);
-  add_edge(out, model->land_edge);
-  add_edge(out, valve->edges.open);
-  add_edge(out, valve->edges.closed);
+  sb_valve_add_edge(out, valve->middle);
+  sb_valve_add_edge(out, model->land_edge);
+  sb_valve_add_edge(out, valve->edges.open);
+  sb_valve_add_edge(out, valve->edges.closed);
 }
 
 // Warns if the jet of the vent is not turbulent, for which the orifice law is valid.
@@ -521,12 +418,12 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   const SbValveType *type = sb_valve_type(model);
   const bool behind = out->start_position >= valve->edges.open;
   valve->edges.port = type->port(model);
-  add_edge(out, valve->edges.port);
+  sb_valve_add_edge(out, valve->edges.port);
   valve->chamber = !valve->touches || behind == type->open_beyond ? SB_CHAMBER_OPEN
                    : out->start_position >= valve->edges.port     ? SB_CHAMBER_CLOSED
                                                                   : SB_CHAMBER_AT_REST;
   if (valve->ports) {
-    status = set_ports(out, valve, report);
+    status = sb_valve_set_ports(out, valve, report);
     if (status != SB_OK) {
       return status;
     }
@@ -534,156 +431,4 @@ SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbRep
   }
   set_regions(valve, out, cycle, near, far);
   return SB_OK;
-}
-
-// ---------------------------------------------------------------------------------------------------
-// Frames
-
-double sb_valve_chamber_pressure(const SbValve *valve, double extra) {
-  return valve->ports ? extra
-                      : sb_model_seal_pressure(valve->run->model, SB_OUTER, valve->chamber).left;
-}
-
-SbSolvedState sb_valve_solved(const SbValve *valve, int direction, double pressure) {
-  if (valve->chamber == SB_CHAMBER_OPEN) {
-    return (SbSolvedState){SB_CHAMBER_OPEN, direction, direction};
-  }
-  // With ports the state nearest to the chamber's pressure.
-  SbChamber chamber = valve->chamber;
-  if (valve->ports) {
-    chamber = filling(valve->run, pressure) < 0.5 ? SB_CHAMBER_AT_REST : SB_CHAMBER_CLOSED;
-  }
-  return (SbSolvedState){chamber, direction, passing(chamber)};
-}
-
-// Greatest pressure on what the land still carries of an elliptic contact: while the middle is on
-// the land its own, then that at the edge.
-static double peak_on(double peak, double share) {
-  double c = 1 - 2 * (1 - share);
-  return share > 0.5 ? peak : share > 0 ? peak * sqrt(fmax(1 - c * c, 0)) : 0;
-}
-
-// Fills films, real contact and friction of a frame from the state of the seal; `on`: the fractions
-// on the land; `moving` in `direction`, else at rest. `out` has the friction of the motion.
-static void fill_film(SbSealFrame *out, const SbModel *model, const SbSealState *state,
-                      const SbLandShare *on, bool moving, int direction) {
-  // At rest the surfaces meet; off the land there is no film.
-  out->friction_boundary = out->friction;
-  if (!state->touches || !(on->width > 0)) {
-    out->film_min = out->film_central = out->lambda = out->real_area_share = NAN;
-  } else if (moving) {
-    out->film_min = state->film_min;
-    out->film_central = state->film_central;
-    out->lambda = state->lambda;
-    out->real_area_share = state->real_area_share;
-    const double way = direction == SB_CYCLE_IN ? 1 : -1;
-    out->friction_viscous = way * on->width * state->friction_viscous;
-    out->friction_boundary =
-        way * (on->width * state->boundary_area + on->load * state->boundary_load);
-    if (model->stribeck_speed > 0 || !(way * out->friction > 0)) {
-      // Stribeck's factor acts on the boundary part; a patch may slide in the other direction.
-      out->friction_boundary = out->friction - out->friction_viscous;
-    }
-    out->friction = out->friction_boundary + out->friction_viscous;
-  } else {
-    out->real_area_share = state->rest_area_share;
-  }
-}
-
-// Contact, load, film and friction of one seal, all of one state.
-static void fill_seal(SbSealFrame *out, SbRun *run, int seal, const SbInstant *at) {
-  const SbDynamicsSample *sample = &at->sample;
-  const SbModel *model = run->model;
-  const SbChamber chamber = at->solved.chamber;
-  const int direction = at->solved.direction;
-  const bool moving = at->moving && sample->contact[seal] != SB_CONTACT_STUCK;
-  const bool mixed = model->pressure_map == SB_MAP_PORTS && at->chamber != SB_CHAMBER_OPEN;
-  const double filled = filling(run, at->pressure), s = sample->position;
-  // Where a quasi-static stem jumps its speed is not known.
-  const bool balanced = sb_valve_type(model)->drive_friction && !sb_motion_kind(model)->inertia;
-  const bool own = moving && sample->speed != 0 && run->plan.frame_films && !balanced;
-  const double speed = own ? sample->speed : run->speed;
-  SbSealState state;
-  SbLandShare on = sb_cycle_land_share(&run->cycle, seal, chamber, at->solved.land, s);
-  if (mixed) {
-    sb_run_state_between(&state, run, seal, filled, direction, speed);
-    const SbLandShare vented = land_share(&run->cycle, seal, SB_CHAMBER_AT_REST, s);
-    const SbLandShare full = land_share(&run->cycle, seal, SB_CHAMBER_CLOSED, s);
-    on.width = (1 - filled) * vented.width + filled * full.width;
-    on.load = (1 - filled) * vented.load + filled * full.load;
-  } else {
-    sb_run_state_at(&state, run, seal, chamber, direction, speed);
-    // At rest a solved ring is not dragged by friction; other models have one contact.
-    const SbSealState *still = &run->cycle.state[seal][chamber][SB_RUN_REST];
-    state = run->plan.ring && !moving && still->load > 0 ? *still : state;
-  }
-  const int motion = moving ? direction : SB_RUN_REST;
-  const SbSealPressure pressure = sb_model_seal_pressure(model, seal, chamber);
-  const bool edged = seal == SB_INNER && on.width < 1 && run->plan.section_fields;
-  const uint32_t over = edged ? sb_run_shape_over_edge(run, direction, s) : UINT32_MAX;
-  const uint32_t drawn = over != UINT32_MAX ? over : sb_run_shape_index(run, seal, chamber, motion);
-  const SbSealShape *shape = sb_run_shape(run, over);
-  const double width = state.contact_right - state.contact_left;
-  // The edge takes the contact away from the canister side.
-  *out = (SbSealFrame){
-      .land_fraction = (float)on.width,
-      .pressure_left = (float)pressure.left,
-      .pressure_right = (float)pressure.right,
-      .profile = run->plan.profiles && state.touches
-                     ? sb_run_profile_slot(seal, (int)chamber, motion)
-                     : UINT32_MAX,
-      .shape = drawn,
-      .contact_left = shape != NULL  ? shape->contact_left
-                      : on.width < 1 ? state.contact_right - on.width * width
-                                     : state.contact_left,
-      .contact_right = shape != NULL ? shape->contact_right : state.contact_right,
-      .load = on.load * state.load,
-      .pressure_peak = peak_on(state.pressure_peak, on.width),
-      .friction = -sample->friction[seal],
-  };
-  if (model->pressure_map == SB_MAP_PORTS) {
-    *(seal == SB_INNER ? &out->pressure_right : &out->pressure_left) = (float)at->pressure;
-  }
-  fill_film(out, model, &state, &on, moving, direction);
-}
-
-void sb_run_frame_film(SbFrame *frame, SbRun *run, int seal, const SbFilm *film, bool fitted) {
-  SbSealFrame *out = &frame->seal[seal];
-  const int direction = frame->velocity < 0 ? SB_CYCLE_OUT : SB_CYCLE_IN;
-  const double speed = frame->velocity != 0 ? frame->velocity : run->speed;
-  // A stem at rest, or a patch that sticks, has the friction that holds it.
-  const bool slides = out->friction_viscous > 0 || out->friction_viscous < 0;
-  SbSealState state;
-  sb_run_state_at(&state, run, seal, frame->chamber, direction, speed);
-  sb_run_set_film(&state, run, seal, frame->chamber, direction, speed, film, fitted);
-  out->film_min = film->film_min;
-  out->film_central = film->film_central;
-  out->lambda = state.lambda;
-  out->real_area_share = state.real_area_share;
-  if (slides) {
-    const double way = direction == SB_CYCLE_IN ? 1 : -1;
-    out->friction_viscous = way * state.friction_viscous;
-    out->friction_boundary = way * (state.boundary_area + state.boundary_load);
-    out->friction = out->friction_boundary + out->friction_viscous;
-  }
-}
-
-void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at) {
-  const SbDynamicsSample *sample = &at->sample;
-  *out = (SbFrame){
-      .time = sample->time,
-      .displacement = sample->position,
-      .velocity = sample->speed,
-      .platen = sample->drive_position,
-      .force = sample->drive_force,
-      .pressure_force = run->model->pressure_force,
-      .stop_force = sample->stop_force[SB_END_STOP] - sample->stop_force[SB_REST_STOP],
-      .spring_force = -sample->spring_force,
-      .chamber_pressure = at->pressure,
-      .stage = (uint8_t)at->stage,
-      .chamber = (uint8_t)at->chamber,
-  };
-  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-    fill_seal(&out->seal[seal], run, seal, at);
-  }
 }

@@ -9,8 +9,7 @@
 // sb_sliding_solve_once() copies these results instead of solving, and at last
 // sb_sliding_solve_with() calls sb_sliding_sum_end(), also after an error.
 //
-// A `way` is an index below SB_RUN_MOTIONS: 0 (speed > 0) and 1 (speed < 0) if friction drags the
-// seal (sb_sliding_drags()), else 2.
+// A `way` is an index below SB_RUN_MOTIONS, SB_WAY_IN and so on.
 //
 // Every task has a memory that is not NULL and that this thread alone uses. Which functions need
 // which part of a state: `out` of sb_sliding_fit_contact(), _solve_once(), _solve_with() and
@@ -21,6 +20,9 @@
 #pragma once
 
 #include "engine/valve/states/contact_law.h"
+
+// Ways: friction drags the seal (sb_sliding_drags()) with speed > 0, with speed < 0, or not at all.
+enum { SB_WAY_IN, SB_WAY_OUT, SB_WAY_REST };
 
 // A solved film, with its profile.
 typedef struct {
@@ -187,6 +189,26 @@ void sb_sliding_copy_film(SbSlidingSolved *out, SbSlidingMemory *memory);
 // Returns the state of memory->from from which the task's ring starts (sb_sliding_memory_start());
 // NULL: none. Borrowed from memory->from.
 const SbSlidingStart *sb_sliding_start_of(const SbSlidingTask *task);
+
+// Returns the way of a task.
+int sb_sliding_way(const SbSlidingTask *task);
+
+// Sets *problem to the fit problem of a task, dragged by `law` (NULL: not), whose copy is on->law.
+// It borrows from task->memory and `on`.
+void sb_sliding_fit_problem(SbFitProblem *problem, const SbSlidingTask *task, SbSlidingFitment *on,
+                            const SbSlidingLaw *law);
+
+// Computes the law of a ring's friction by closed forms, 0 where they have none; changes the fit of
+// `on` and the memory's film.
+void sb_sliding_guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment *on);
+
+// Returns the law to drag a ring with first: by closed forms, or that of `start` (NULL: none) as
+// these change from there. Sets on->guess.
+SbSlidingLaw sb_sliding_first_law(const SbSlidingTask *task, SbSlidingFitment *on,
+                                  const SbSlidingStart *start);
+
+// Fails for a ring that the base does not have, with SB_ERROR_NOT_CONVERGED, and clears the fit.
+SbStatus sb_sliding_no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbReport *report);
 
 // Discards the memory's fit of the task's way.
 void sb_sliding_forget_fitment(const SbSlidingTask *task);

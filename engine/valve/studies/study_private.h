@@ -144,6 +144,14 @@ void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double l
 // Solves a film problem into work->film, starting from the last film, and reports progress.
 SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report);
 
+// Computes the grid's rows value[rows][columns], stores their figures at the places line[rows],
+// x[rows], and reports progress from the fraction `from` to `to`.
+void sb_study_answer_rows(SbStudyWork *work, const double *value, const int *line, const double *x,
+                          size_t rows, double from, double to);
+
+// Reports progress, `fraction` 0 to 1, and ends the study if it is cancelled.
+void sb_study_step(SbStudyWork *work, double fraction);
+
 // Stores `status` and `report` of work other than sb_study_ask(), if it is the first error. Returns
 // whether the study continues: work->status is SB_OK.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
