@@ -216,6 +216,7 @@ checks = [
     ('no code of the engine outside engine/valve/model compares the kind of valve, its asperities or its '
      'motion (sb_valve_type(), sb_contact_law(), sb_motion_kind())',
      lines_with(source, [f'engine/valve/{room}' for room in VALVE_ROOMS[1:]], KIND)),
+    ('no code of app and ui compares them (sb_device())', lines_with(source, ['app', 'ui'], KIND)),
     ('that test finds such a line', [line for line in KINDS if not KIND.search(line)]),
     ('no code outside engine/contact/rough compares the model of a rough surface (sb_rough_kind())',
      lines_with(source, ['engine/film', 'engine/contact/disc', 'engine/contact/ring', 'engine/valve', 'app', 'ui'],

@@ -2,6 +2,7 @@
 // width, the section the rest; profiles below, half each; timeline and footer at fixed heights, so
 // that extra height goes to the section. Leaves out any drawing of its own.
 #include "app/chart/dashboard.h"
+#include "app/base/device.h"
 #include "app/chart/hysteresis.h"
 #include "app/chart/page.h"
 #include "app/chart/profiles.h"
@@ -62,7 +63,7 @@ void sb_dashboard_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
   cairo_fill(cr);
 
   sb_page_header_draw(cr, at.page, theme, data, flags);
-  if (sb_chart_is_rig(&data->run)) {
+  if (!sb_device(data->run.model)->stem) {
     // No valve to cut: the signal takes the section's place, the plate the lower panels'.
     SbRect lower = at.pressure;
     lower.width = at.film.x + at.film.width - lower.x;

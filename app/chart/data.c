@@ -1,6 +1,7 @@
 // Small questions that several views ask of their data. Computes nothing of its own.
 #include "app/chart/data.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 
 #include <glib.h>
@@ -30,51 +31,35 @@ size_t sb_chart_nearest(const SbChartRun *run, double time) {
   return lo > 0 && time - run->frames[lo - 1].time < run->frames[lo].time - time ? lo - 1 : lo;
 }
 
-bool sb_chart_is_rig(const SbChartRun *run) {
-  return run && sb_model_is_rig(run->model);
-}
-
 bool sb_chart_complete(const SbChartData *data) {
   return data->run.state == SB_CHART_DONE && data->run.trace &&
          sb_trace_frames(data->run.trace) >= data->run.count;
 }
 
 const char *sb_chart_seal_name(const SbModel *model, int seal) {
-  const bool gasket = sb_model_is_gasket(model);
-  return seal == SB_OUTER ? gasket ? _("Stem gasket") : _("Outer seal")
-         : gasket ? _("Chamber gasket")
-                          : _("Inner seal");
+  return _(sb_device(model)->seal[seal]);
 }
 
 size_t sb_chart_forces(SbChartForce *force, const SbModel *model, const SbFrame *frame) {
-  const bool gasket = sb_model_is_gasket(model);
+  const SbDevice *device = sb_device(model);
   size_t n = 0;
   force[n++] = (SbChartForce){_("drive"), frame->force, SB_ROLE_INK};
   force[n++] = (SbChartForce){_("pressure"), frame->pressure_force, SB_ROLE_FLUID};
   if (sb_model_has_spring(model)) {
     force[n++] = (SbChartForce){_("spring"), frame->spring_force, SB_ROLE_SECOND};
   }
-  force[n++] = (SbChartForce){gasket ? _("chamber gasket") : _("inner friction"),
-                              frame->seal[SB_INNER].friction, SB_ROLE_INNER};
-  force[n++] = (SbChartForce){gasket ? _("stem gasket") : _("outer friction"),
-                              frame->seal[SB_OUTER].friction, SB_ROLE_OUTER};
+  force[n++] =
+      (SbChartForce){_(device->friction[SB_INNER]), frame->seal[SB_INNER].friction, SB_ROLE_INNER};
+  force[n++] =
+      (SbChartForce){_(device->friction[SB_OUTER]), frame->seal[SB_OUTER].friction, SB_ROLE_OUTER};
   return n;
 }
 
-const char *sb_chart_gasket_phase(int stage) {
-  static const char *const names[SB_STAGE_COUNT] = {
-      N_("at rest, force builds up"),   N_("chamber fills past the neck"),
-      N_("chamber shut, then empties"), N_("dose, at the stop"),
-      N_("return, chamber empty"),      N_("return, chamber fills")};
-  return stage >= 0 && stage < SB_STAGE_COUNT ? _(names[stage]) : "";
-}
-
 const char *sb_chart_phase(const SbChartRun *run, int stage) {
-  if (sb_chart_is_rig(run)) {
-    return stage == SB_STAGE_A ? _("force builds up") : _("sticks and slips");
-  }
-  if (sb_model_is_gasket(run->model)) {
-    return sb_chart_gasket_phase(stage);
+  const char *phase =
+      stage >= 0 && stage < SB_STAGE_COUNT ? sb_device(run->model)->phase[stage] : NULL;
+  if (phase != NULL) {
+    return _(phase);
   }
   // Whether the inner seal touches at all is the run's own business: look at its frames.
   bool inner = true, outer = true;
@@ -114,14 +99,14 @@ const char *sb_chart_cycle_name(char *out, const SbChartRun *run, int cycle) {
   out[0] = '\0';
   if (m && sb_model_number(m, SB_P_LIFE_ACTUATIONS) > 1 && sb_model_shown_actuation(m) > 1) {
     g_snprintf(out, SB_FORMAT_MAX, _("actuation %d"), cycle == 0 ? 1 : sb_model_shown_actuation(m));
-  } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1 && !sb_chart_is_rig(run)) {
+  } else if (m && sb_model_number(m, SB_P_DRIVE_CYCLES) > 1 && sb_device(m)->stem) {
     g_snprintf(out, SB_FORMAT_MAX, _("cycle %d"), cycle + 1);
   }
   return out;
 }
 
 const char *sb_chart_span(const SbChartRun *run, int stage) {
-  if (sb_chart_is_rig(run) && stage == SB_STAGE_B) {
+  if (run != NULL && !sb_device(run->model)->stem && stage == SB_STAGE_B) {
     return "B";
   }
   static const char *const spans[SB_STAGE_COUNT] = {"A\xe2\x80\x93"

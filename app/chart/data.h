@@ -112,15 +112,8 @@ const SbFrame *sb_chart_frame(const SbChartData *data);
 // Returns the index of the frame nearest to a time [s]; the run must have frames.
 size_t sb_chart_nearest(const SbChartRun *run, double time);
 
-// Returns whether a run (NULL: no) is of the sliding-plate rig, not of a valve.
-bool sb_chart_is_rig(const SbChartRun *run);
-
 // Returns whether the live run is complete and its trace contains all frames.
 bool sb_chart_complete(const SbChartData *data);
-
-// Returns what happens in a gasket valve after stage `stage` (SbStage) until the next one,
-// translated: "chamber fills past the neck"; "" for another number. Static.
-const char *sb_chart_gasket_phase(int stage);
 
 // Returns the name of seal `seal` (SB_OUTER, SB_INNER) of a model (NULL: of the piston valve),
 // translated: "Inner seal". Static.

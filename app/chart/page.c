@@ -1,6 +1,7 @@
 // Header and footer of a page. Every export says which models made it, what its error estimates are
 // and what to be warned of; where a run gives no estimate the footer says so rather than nothing.
 #include "app/chart/page.h"
+#include "app/base/device.h"
 #include "app/base/format.h"
 
 #include <glib.h>
@@ -22,15 +23,16 @@ static void append_choice(GString *out, const char *label, const SbModel *model,
 void sb_page_models_text(char *out, size_t size, const SbChartRun *run) {
   g_autoptr(GString) text = g_string_new(NULL);
   const SbModel *m = run->model;
-  if (sb_model_is_rig(m)) {
-    append_choice(text, _("motion"), m, SB_P_MODELS_MOTION);
-  } else if (m) {
+  if (m != NULL && sb_device(m)->stem) {
     append_choice(text, _("fit"), m, SB_P_MODELS_FIT);
     append_choice(text, _("film"), m, SB_P_MODELS_FILM);
     append_choice(text, _("surface"), m, SB_P_MODELS_SURFACE);
-    if (sb_model_number(m, SB_P_MODELS_ASPERITIES) == SB_MODEL_ASPERITIES_COUPLED) {
+    if (sb_model_number(m, SB_P_MODELS_ASPERITIES) !=
+        (int)sb_param(SB_P_MODELS_ASPERITIES)->fallback) {
       append_choice(text, _("asperities"), m, SB_P_MODELS_ASPERITIES);
     }
+  }
+  if (m != NULL) {
     append_choice(text, _("motion"), m, SB_P_MODELS_MOTION);
   }
   g_strlcpy(out, text->str, size);
@@ -43,7 +45,7 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
     return;
   }
   char pressure[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], map[64];
-  if (sb_model_is_rig(m)) {
+  if (!sb_device(m)->stem) {
     const SbRig *rig = sb_model_rig(m);
     g_snprintf(out, size, _("load %s  \xc2\xb7  thread %s  \xc2\xb7  %.4g samples a second"),
                sb_format_given(pressure, SB_QUANTITY_FORCE, rig->load),
@@ -65,11 +67,8 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
   } else {
     sb_format_given(speed, SB_QUANTITY_SPEED, v);
   }
-  if (sb_model_number(m, SB_P_VALVE_KIND) == SB_VALVE_GASKET) {
-    sb_model_choice_name(m, SB_P_VALVE_KIND, map, sizeof map); // its pressures follow the stem
-  } else {
-    sb_model_choice_name(m, SB_P_CANISTER_PRESSURE_MAP, map, sizeof map);
-  }
+  sb_model_choice_name(m, sb_device(m)->pressure_map ? SB_P_CANISTER_PRESSURE_MAP : SB_P_VALVE_KIND,
+                       map, sizeof map);
   g_snprintf(out, size, _("canister %s  \xc2\xb7  %s  \xc2\xb7  %s"), pressure, speed, map);
 }
 
@@ -200,9 +199,8 @@ static double draw_readouts(SbCanvas *c, const SbChartData *data, const SbFrame 
   char number[SB_FORMAT_MAX];
   SbFormatted f;
   sb_format(&f, SB_QUANTITY_FORCE, frame->force, sb_chart_error_force(run));
-  double x = readout(c, right, y, f.number, f.unit, "00.0",
-                     sb_chart_is_rig(run) ? _("force in the thread") : _("force on the stem"),
-                     SB_ROLE_INK);
+  double x =
+      readout(c, right, y, f.number, f.unit, "00.0", _(sb_device(run->model)->force), SB_ROLE_INK);
   // Place and time get a fixed number of decimals: digits that come and go distract.
   sb_format_fixed(number, frame->displacement * 1e3, 2);
   x = readout(c, x - 42, y, number, "mm", "0.00", C_("stem", "displacement"), SB_ROLE_INK);

@@ -4,6 +4,7 @@
 // of Hertz and labelled schematic. Film of a seal at rest and contact of a seal off the land do not
 // exist and are said in words. Leaves out what the solver left out: asperities' share of the
 // pressure is drawn only if the profile has one.
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/chart/profiles_private.h"
 
@@ -224,12 +225,9 @@ bool sb_profiles_read(SbProfileReading *out, SbRect rect, const SbChartData *dat
 static void panel_note(char *out, size_t size, const SbChartData *data, bool compact, bool film) {
   const SbFrame *frame = sb_chart_frame(data);
   if (film) {
-    const bool gasket = sb_model_is_gasket(data->run.model);
-    const char *bore = !frame || frame->velocity == 0  ? _("at rest")
-                       : gasket && frame->velocity > 0 ? _("stem moves left")
-                       : gasket                        ? _("stem moves right")
-                       : frame->velocity > 0           ? _("bore moves right")
-                                                       : _("bore moves left");
+    const char *bore = !frame || frame->velocity == 0
+                           ? _("at rest")
+                           : _(sb_device(data->run.model)->moves[frame->velocity < 0]);
     g_snprintf(out, size, "%s%s",
                compact ? _("log scale, position / mm, ")
                        : _("log scale against axial position / mm, "),

@@ -14,8 +14,7 @@
 #include <string.h>
 
 static const SbRigSummary *summary_of(const SbChartRun *run) {
-  return run->summary && sb_model_is_rig(run->model) && run->summary->rig.found ? &run->summary->rig
-                                                                                : NULL;
+  return run->summary && run->summary->rig.found ? &run->summary->rig : NULL;
 }
 
 // ---------------------------------------------------------------------------------------------------

@@ -3,6 +3,7 @@
 // back at constant speed, so its duration is known before the run has ended. What is not computed
 // yet is left blank, what a cancelled run lacks is hatched.
 #include "app/chart/timeline.h"
+#include "app/base/device.h"
 #include "app/base/format.h"
 #include "app/draw/label.h"
 
@@ -18,7 +19,7 @@ static double duration_of(const SbChartData *data) {
   if (whole && run->summary->duration > 0) {
     return fmax(known, run->summary->duration);
   }
-  double expected = sb_chart_is_rig(run) ? sb_model_rig(m)->duration : 0;
+  double expected = sb_device(m)->stem ? 0 : sb_model_rig(m)->duration;
   if (expected == 0 && m) {
     double yields =
         sb_model_value(m, SB_P_DRIVE_REVERSAL_FORCE) / sb_model_value(m, SB_P_DRIVE_STIFFNESS);
@@ -135,7 +136,7 @@ static void draw_events(View *v) {
     }
   }
   double end = now > right - 20 ? fmin(right, now - 8) : right;
-  if (sb_chart_complete(v->data) && !sb_chart_is_rig(&v->data->run) && taken < end - 12) {
+  if (sb_chart_complete(v->data) && sb_device(v->data->run.model)->stem && taken < end - 12) {
     sb_canvas_text(c, "A", &letter, end, v->top - 7, SB_RIGHT);
   }
 }
@@ -344,7 +345,7 @@ void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCh
   draw_axis(&v);
   if (any) {
     double stroke = sb_trace_range(data->run.trace).displacement_max;
-    if (data->run.model && !sb_chart_is_rig(&data->run)) {
+    if (data->run.model && sb_device(data->run.model)->stem) {
       stroke = fmax(stroke, sb_model_value(data->run.model, SB_P_DRIVE_STROKE));
     }
     v.s = (SbScale){0, stroke > 0 ? stroke : 1, v.bottom - 4, v.top + 6, false};

@@ -4,6 +4,8 @@
 // doubles and the points are thinned again, so memory stays bounded.
 #include "app/chart/trace.h"
 
+#include "app/base/device.h"
+
 #include <glib.h>
 #include <math.h>
 
@@ -28,7 +30,7 @@ SbTrace *sb_trace_create(const SbModel *model) {
   trace->points = g_array_sized_new(FALSE, FALSE, sizeof(SbTracePoint), 4096);
   trace->peaks = g_array_new(FALSE, FALSE, sizeof(SbTracePoint));
   trace->events = g_array_new(FALSE, FALSE, sizeof(SbTraceEvent));
-  if (sb_model_is_rig(model)) {
+  if (!sb_device(model)->stem) {
     const SbRig *rig = sb_model_rig(model);
     trace->displacement_scale = rig->speed * rig->duration / 4000;
     trace->force_scale = rig->load / 4000;

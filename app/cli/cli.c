@@ -10,6 +10,7 @@
 #include "app/lazy/lazy.h"
 #include "app/run/process.h"
 #include "app/table/json.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <errno.h>
 #include <math.h>
@@ -419,8 +420,9 @@ bool sb_cli_has_memory(const SbModel *model) {
   bool dense = model == NULL;
   if (model != NULL) {
     int film = sb_model_number(model, SB_P_MODELS_FILM);
-    dense = sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_QUASI_STATIC ||
-            sb_model_number(model, SB_P_MODELS_ASPERITIES) == SB_MODEL_ASPERITIES_COUPLED ||
+    dense = sb_motion_kind(model)->inertia ||
+            sb_model_number(model, SB_P_MODELS_ASPERITIES) !=
+                (int)sb_param(SB_P_MODELS_ASPERITIES)->fallback ||
             !sb_film_kind((SbFilmModel)film)->power_law;
   }
   if (dense && !sb_process_has_memory()) {

@@ -1,6 +1,7 @@
 // Charts below tables. See plots.h. By the same code as the workbench in a terminal.
 #include "app/cli/plots.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/terminal/charts.h"
@@ -60,8 +61,8 @@ void sb_cli_plot_run(const SbRun *run, const SbComparison *measured, int rows) {
   if (data.run.count > 0) {
     Sheet sheet;
     begin(&sheet, rows);
-    heading(&sheet, sb_chart_is_rig(&data.run) ? "Force / N over time / s"
-                                               : "Force / N over displacement / mm");
+    heading(&sheet, sb_device(data.run.model)->stem ? "Force / N over displacement / mm"
+                                                    : "Force / N over time / s");
     sb_chart_loop(&sheet.cells, sheet.rect, &sheet.theme, &data, SB_CHART_WHOLE);
     end(&sheet);
   }

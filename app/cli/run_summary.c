@@ -1,6 +1,7 @@
 // The summary of a run. See run_text.h.
 #include "app/cli/run_text.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/cli/wrap.h"
@@ -99,7 +100,7 @@ static size_t list_figures(int index[SB_FIGURE_COUNT], const SbCliRunText *of) {
   for (size_t i = 0; i < G_N_ELEMENTS(key_figures); i++) {
     index[count++] = sb_figure_find(key_figures[i]);
   }
-  for (int i = 0; i < SB_FIGURE_COUNT && sb_model_is_rig(sb_run_model(of->run)); i++) {
+  for (int i = 0; i < SB_FIGURE_COUNT && !sb_device(sb_run_model(of->run))->stem; i++) {
     if (sb_figure(i)->brief && sb_figure(i)->group == SB_GROUP_RIG) {
       index[count++] = i;
     }
@@ -179,7 +180,7 @@ void sb_cli_run_summary(const SbCliRunText *of) {
   const int room = SB_CLI_SUMMARY_LINES - (of->folder != NULL);
   g_autoptr(GPtrArray) items = g_ptr_array_new_with_free_func(g_free);
   g_ptr_array_add(items, g_strdup(of->title));
-  if (!sb_model_is_rig(sb_run_model(of->run))) {
+  if (sb_device(sb_run_model(of->run))->stem) {
     add_verdict(items, summary, of->verdict);
   }
   add_figures(items, of);

@@ -1,6 +1,7 @@
 // The full table of a run. See run_text.h.
 #include "app/cli/run_text.h"
 
+#include "app/base/device.h"
 #include "app/cli/cli.h"
 #include "app/export/run_tables.h"
 
@@ -17,7 +18,7 @@ void sb_cli_run_table(const SbCliRunText *of) {
   const SbSummary *summary = sb_run_summary(of->run);
   printf("%s\n", of->title);
   print_table(NULL, sb_run_figures(of->run));
-  if (!sb_model_is_rig(sb_run_model(of->run))) {
+  if (sb_device(sb_run_model(of->run))->stem) {
     print_table("Stages", sb_run_stages(summary));
     print_table(NULL, sb_run_seals(summary));
     print_table("Verdict", sb_run_verdict(summary, of->verdict));

@@ -1,6 +1,7 @@
 // Frames and profiles as text tables.
 #include "app/export/csv.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/table/table.h"
 
@@ -68,7 +69,7 @@ void sb_csv_cycle(FILE *stream, const SbRun *run) {
     fputs(" [N]", stream);
   }
   // Of the rig's force: 1 the first peak, 2 one that follows.
-  bool rig = sb_model_is_rig(sb_run_model(run));
+  bool rig = !sb_device(sb_run_model(run))->stem;
   fputs(rig ? ",peak\n" : "\n", stream);
   size_t count = 0;
   const SbFrame *frames = sb_run_frames(run, &count);

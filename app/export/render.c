@@ -4,6 +4,7 @@
 // take the middle of B-C.
 #include "app/export/render.h"
 
+#include "app/base/device.h"
 #include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/chart/hysteresis.h"
@@ -25,13 +26,13 @@ static bool refuse(GError **error, const char *why) {
   return false;
 }
 
-static bool is_rig(const SbRun *run, GError **error) {
-  return sb_model_is_rig(sb_run_model(run)) ||
+static bool has_plate(const SbRun *run, GError **error) {
+  return !sb_device(sb_run_model(run))->stem ||
          refuse(error, "the view \"rig\" is for the sliding plate (models.motion = rig)");
 }
 
-static bool is_valve(const SbRun *run, GError **error) {
-  return !sb_model_is_rig(sb_run_model(run)) ||
+static bool has_valve(const SbRun *run, GError **error) {
+  return sb_device(sb_run_model(run))->stem ||
          refuse(error, "the view \"cutaway\" is for a valve, not for the sliding plate");
 }
 
@@ -65,7 +66,7 @@ static const SbRenderView views[] = {
     {"section", N_("Axial section"), 1280, 720, .computes = SB_VIEW_SECTION, .section = true,
      .rig = sb_rig_plate_draw},
     {"cutaway", N_("Cutaway in three dimensions"), 1280, 720, .computes = SB_VIEW_SECTION,
-     .section = true, .cutaway = true, .fits = is_valve},
+     .section = true, .cutaway = true, .fits = has_valve},
     {"hysteresis", N_("Force and displacement"), 960, 720, .computes = SB_VIEW_HYSTERESIS,
      .compares = true, .whole = true, .valve = sb_hysteresis_draw, .rig = sb_signal_draw},
     {"profiles", N_("Contact pressure and film"), 1440, 520, .computes = SB_VIEW_PROFILES,
@@ -73,7 +74,7 @@ static const SbRenderView views[] = {
     {"dashboard", N_("Dashboard"), 1920, 1080, .computes = SB_VIEW_DASHBOARD, .section = true,
      .compares = true, .page = sb_dashboard_draw},
     {"rig", N_("Thread force and coefficients"), 1440, 720, .computes = SB_VIEW_RIG, .whole = true,
-     .valve = sb_rig_page_draw, .rig = sb_rig_page_draw, .fits = is_rig},
+     .valve = sb_rig_page_draw, .rig = sb_rig_page_draw, .fits = has_plate},
     {"life", N_("Life over its actuations"), 1440, 620, .computes = SB_VIEW_LIFE, .whole = true,
      .valve = draw_life, .rig = draw_life, .fits = has_life},
     {"shelf", N_("Loss on the shelf"), 1440, 760, .computes = SB_VIEW_SHELF, .whole = true,
@@ -122,7 +123,7 @@ void sb_render_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
   unsigned header = page.width < 1000 ? flags | SB_CHART_WHOLE : flags;
   sb_page_header_draw(cr, page, theme, data, header);
   flags |= SB_CHART_PANEL;
-  SbViewDraw *draw = sb_chart_is_rig(&data->run) ? view->rig : view->valve;
+  SbViewDraw *draw = sb_device(data->run.model)->stem ? view->valve : view->rig;
   if (draw != NULL) {
     draw(cr, body, theme, data, flags);
   } else if (section) {

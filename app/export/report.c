@@ -3,6 +3,7 @@
 // on.
 #include "app/export/report.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/chart/hysteresis.h"
@@ -380,7 +381,7 @@ bool sb_report_scene(FILE *stream, const SbReportScene *of, const SbReportHooks 
                      GError **error) {
   Scene scene = {.of = of, .summary = sb_run_summary(of->run), .model = sb_run_model(of->run)};
   SbReport report = {0};
-  scene.rig = sb_model_is_rig(scene.model);
+  scene.rig = !sb_device(scene.model)->stem;
   if (sb_section_painter_create(&scene.painter, false, SB_GL_AUTO, &report) != SB_OK) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "%s", report.text);
     return false;

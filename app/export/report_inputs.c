@@ -4,6 +4,7 @@
 #include "app/export/report.h"
 
 #include "app/base/number.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <string.h>
 
@@ -125,8 +126,7 @@ static void draw_models(SbReportPages *pages, Sources *sources, const SbDocument
 static bool is_listed(const SbModel *model, const SbParams *params, SbParamId id) {
   SbParamDefault follows;
   const SbParamGroup group = sb_param_group(id);
-  if (sb_model_number(model, SB_P_MODELS_MOTION) != SB_MODEL_MOTION_BODIES &&
-      (group == SB_PARAMS_PART || group == SB_PARAMS_JOINT)) {
+  if (!sb_motion_kind(model)->joints && (group == SB_PARAMS_PART || group == SB_PARAMS_JOINT)) {
     return false; // the motion has no parts
   }
   if (params->given[id]) {

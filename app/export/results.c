@@ -1,6 +1,7 @@
 // The JSON documents of runs and plans; see the header.
 #include "app/export/results.h"
 
+#include "app/base/device.h"
 #include "app/base/unit.h"
 #include "app/export/csv.h"
 #include "app/export/measured_results.h"
@@ -252,7 +253,7 @@ static void put_life(SbJson *json, const SbRun *run) {
 static bool is_there(const SbRun *run, int figure) {
   const SbFigureGroup group = sb_figure(figure)->group;
   return group == SB_GROUP_LIFE  ? sb_run_summary(run)->life.done > 0
-         : group == SB_GROUP_RIG ? sb_model_is_rig(sb_run_model(run))
+         : group == SB_GROUP_RIG ? !sb_device(sb_run_model(run))->stem
                                  : true;
 }
 
@@ -419,7 +420,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_figures(&json, summary, "cycle.");
   put_verdict(&json, info->verdict);
   sb_json_object_end(&json);
-  if (sb_model_is_rig(model)) {
+  if (!sb_device(model)->stem) {
     put_rig(&json, run);
   }
   if (summary->life.done > 0) {

@@ -1,6 +1,7 @@
 // Tables of a run. See the header.
 #include "app/export/run_tables.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/format.h"
 #include "app/session/verdict_text.h"
@@ -78,7 +79,7 @@ SbTable *sb_run_figures(const SbRun *run) {
   };
   const SbSummary *summary = sb_run_summary(run);
   SbTable *table = sb_table_new(columns, G_N_ELEMENTS(columns));
-  const bool rig = sb_model_is_rig(sb_run_model(run));
+  const bool rig = !sb_device(sb_run_model(run))->stem;
   add_figures(table, summary, SB_GROUP_CYCLE, "Cycle", rig);
   if (rig) {
     add_figures(table, summary, SB_GROUP_RIG, "Sliding plate", false);

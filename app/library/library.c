@@ -4,6 +4,7 @@
 #define _GNU_SOURCE // dladdr()
 #include "include/sealbench.h"
 
+#include "app/base/device.h"
 #include "app/document/document.h"
 #include "app/document/shipped.h"
 #include "engine/valve/sealbench.h"
@@ -416,7 +417,7 @@ SbSceneStatus sb_scene_run(SbScene *scene) {
     return compiled;
   }
   sb_plan_make(&plan, model);
-  plan.profiles = !sb_model_is_rig(model);
+  plan.profiles = sb_device(model)->stem;
   plan.section_fields = false;
   SbStatus status = scene->run == NULL ? sb_run_create(&scene->run, model, &plan, &why)
                                        : sb_run_renew(scene->run, model, &plan, &why);

@@ -1,6 +1,7 @@
 // Beside the section: its title, the legends of its colours, the balance of forces.
 #include "app/section/section_private.h"
 
+#include "app/base/device.h"
 #include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/chart/data.h"
@@ -104,14 +105,15 @@ static void draw_title(SbSection *section, double x, double y) {
   const char *span = sb_chart_span(NULL, frame->stage);
   sb_draw_text(list, x, y + 20, 26, 700, SB_LEFT, palette->now, span);
   double width = sb_text_width(section->text, span, 26, 700);
-  static const char *const phase[SB_STAGE_COUNT] = {
+  static const char *const rings[SB_STAGE_COUNT] = {
       [SB_STAGE_A] = N_("force builds up"),      [SB_STAGE_B] = N_("both seals slide"),
       [SB_STAGE_C] = N_("chamber open"),         [SB_STAGE_D] = N_("at the stop"),
       [SB_STAGE_E] = N_("return, chamber open"), [SB_STAGE_F] = N_("both seals slide back"),
   };
+  const int stage = MIN(frame->stage, SB_STAGE_COUNT - 1);
+  const char *phase = sb_device(section->model)->phase[stage];
   sb_draw_text(list, x + width + 10, y + 20, 13, 600, SB_LEFT, palette->now,
-               section->valve.gasket ? sb_chart_gasket_phase(frame->stage)
-                                     : _(phase[MIN(frame->stage, SB_STAGE_COUNT - 1)]));
+               _(phase != NULL ? phase : rings[stage]));
   char stroke[SB_SECTION_NUMBER], force[SB_SECTION_NUMBER];
   snprintf(text, sizeof text, "%s s    %s    %s", time,
            sb_section_millimetre(stroke, frame->displacement),

@@ -4,6 +4,8 @@
 // the stem into its three parts, the crimp.
 #include "app/section/valve_private.h"
 
+#include "app/base/device.h"
+
 #include "engine/valve/sealbench.h"
 
 #include <glib.h>
@@ -316,7 +318,7 @@ static void shape_stem(SbValveOutline *valve, const SbValveOutlines *given) {
 void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
                            double top, bool vent) {
   memset(valve, 0, sizeof *valve);
-  if (sb_model_number(model, SB_P_VALVE_KIND) == SB_VALVE_GASKET) {
+  if (!sb_device(model)->gland && sb_device(model)->stem) {
     sb_valve_gasket_make(valve, model, vent);
     finish_housing(valve);
     return;

@@ -2,6 +2,8 @@
 // three deviations of a normal one, as in `assets/studies/light-valve.study`.
 #include "app/session/design_ask.h"
 
+#include "app/base/device.h"
+
 #include "engine/valve/sealbench.h"
 
 #include <math.h>
@@ -65,10 +67,11 @@ void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document) {
   ask->limits.count -= ask->left_out;
   const SbParams params = sb_document_params(document);
   const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  const SbDevice *device = sb_device_of_kind(kind);
   if (ask->limits.count == 0) {
     // The last is of a ring in its groove.
     ask->usual = true;
-    ask->limits.count = G_N_ELEMENTS(usual) - (kind == SB_VALVE_GASKET ? 1 : 0);
+    ask->limits.count = G_N_ELEMENTS(usual) - (device->gland ? 0 : 1);
     for (size_t i = 0; i < ask->limits.count; i++) {
       ask->limits.item[i] = (SbLimit){sb_figure_find(usual[i].figure), usual[i].low, usual[i].high};
     }
@@ -81,11 +84,7 @@ void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document) {
       if (!(range->low < range->high)) {
         continue;
       }
-      const bool gasket = kind == SB_VALVE_GASKET;
-      const int axis = id == (gasket ? SB_P_GASKET_CRIMP : SB_P_GLAND_RADIAL_SPACE) ? 1
-                       : id == (gasket ? SB_P_GASKET_BORE_DIAMETER : SB_P_SEAL_SECTION_DIAMETER)
-                           ? 0
-                           : -1;
+      const int axis = id == (int)device->up ? 1 : id == (int)device->across ? 0 : -1;
       range->free = axis >= 0;
       if (axis >= 0) {
         ask->axis[axis] = ask->count;

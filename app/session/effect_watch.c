@@ -1,5 +1,6 @@
 #include "app/session/effect_watch.h"
 
+#include "app/base/device.h"
 #include "app/base/format.h"
 #include "app/base/unit.h"
 
@@ -43,7 +44,7 @@ static gboolean on_later(gpointer data) {
   }
   watch->later = 0;
   g_autofree char *hash = sb_document_sha256(sb_session_document(watch->session));
-  if (model != NULL && !sb_model_is_rig(model) && watch->job == NULL &&
+  if (model != NULL && sb_device(model)->stem && watch->job == NULL &&
       g_strcmp0(hash, watch->hash) != 0) {
     g_free(watch->job_hash);
     watch->job_hash = g_steal_pointer(&hash);

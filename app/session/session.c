@@ -6,6 +6,7 @@
 #include "app/session/session_private.h"
 
 #include "app/document/typed.h"
+#include "engine/valve/model/motion_kind.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -262,9 +263,9 @@ const SbModel *sb_session_model(SbSession *session) {
 const char *sb_session_lock(SbSession *session, SbParamId id) {
   // Values that the chosen models do not read.
   const SbDocument *document = session->document;
-  int motion = (int)sb_document_value(document, SB_P_MODELS_MOTION);
   int film = (int)sb_document_value(document, SB_P_MODELS_FILM);
-  if (id == SB_P_STEM_MASS && motion == SB_MODEL_MOTION_QUASI_STATIC) {
+  if (id == SB_P_STEM_MASS &&
+      !sb_motion_choice((int)sb_document_value(document, SB_P_MODELS_MOTION))->inertia) {
     return _("Locked: the quasi-static motion has no inertia");
   }
   if (id == SB_P_OUTPUT_TOLERANCE && !sb_film_kind((SbFilmModel)film)->coupled &&

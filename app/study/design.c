@@ -1,6 +1,7 @@
 // The best design within limits; see the header.
 #include "app/study/design_private.h"
 
+#include "app/base/device.h"
 #include "app/study/slopes.h"
 
 #include <math.h>
@@ -76,7 +77,7 @@ static double objective_of(const View *view) {
 }
 
 static bool solved(const SbModel *model) {
-  return sb_model_fit(model)->section || sb_model_number(model, SB_P_VALVE_KIND) == SB_VALVE_GASKET;
+  return sb_model_fit(model)->section || !sb_device(model)->gland;
 }
 
 // The slope of a figure that has none here is that of a chord. A kink of a closed form is bridged

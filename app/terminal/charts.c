@@ -2,6 +2,7 @@
 // stands between the same axes in every front end.
 #include "app/terminal/charts.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/unit.h"
 #include "app/chart/hysteresis.h"
@@ -156,7 +157,7 @@ static void chart_signal(SbCells *cells, SbCellRect rect, const SbCellTheme *the
 
 void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                    const SbChartData *data, unsigned flags) {
-  if (sb_chart_is_rig(&data->run) && data->run.trace != NULL) {
+  if (!sb_device(data->run.model)->stem && data->run.trace != NULL) {
     chart_signal(cells, rect, theme, data, flags);
     return;
   }

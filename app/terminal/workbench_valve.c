@@ -1,6 +1,7 @@
 // The page of the valve: header, verdict, loop, figures, section, timeline, status.
 #include "app/terminal/workbench_private.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/session/verdict_text.h"
@@ -292,7 +293,7 @@ static bool section_list(SbBench *bench, int columns, double rows) {
                         sb_session_state(bench->session) == SB_SESSION_RUNNING)) {
     return false;
   }
-  if (sb_chart_is_rig(&sb_session_chart(bench->session)->run) ||
+  if (!sb_device(sb_session_chart(bench->session)->run.model)->stem ||
       !sb_section_source_now(bench->source, &now)) {
     return false;
   }
@@ -438,18 +439,16 @@ static void draw_timeline(SbBench *bench, SbCellRect rect) {
 static void draw_loop(SbBench *bench, SbCellRect rect) {
   SbCells *cells = &bench->cells;
   SbChartData data = *sb_session_chart(bench->session);
-  const int title =
-      sb_cells_text(cells, rect.x, rect.y, rect.width,
-                    sb_chart_is_rig(&data.run) ? _("Force and time") : _("Force and displacement"),
-                    sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
+  const SbDevice *device = sb_device(data.run.model);
+  const int title = sb_cells_text(cells, rect.x, rect.y, rect.width, _(device->loop),
+                                  sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
   g_autofree char *former = sb_session_former_text(bench->session);
   g_autofree char *grade = sb_session_grade_text(bench->session);
   sb_cells_text(cells, rect.x + title + 2, rect.y, rect.width - title - 2,
-                data.predicted != NULL       ? _("dotted: predicted")
-                : former != NULL             ? former
-                : grade != NULL              ? grade
-                : sb_chart_is_rig(&data.run) ? _("N over s")
-                                             : _("N over mm"),
+                data.predicted != NULL ? _("dotted: predicted")
+                : former != NULL       ? former
+                : grade != NULL        ? grade
+                                       : _(device->axes),
                 sb_bench_pen(bench, former != NULL ? SB_ROLE_WARN : SB_ROLE_SECOND, 0));
   const SbCellRect at = {rect.x, rect.y + 1, rect.width, rect.height - 1};
   if (data.run.count == 0) {
@@ -565,8 +564,8 @@ void sb_bench_draw_status(SbBench *bench, int y) {
   sb_model_choice_name(model, SB_P_MODELS_SURFACE, surface, sizeof surface);
   sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
   g_autofree char *text =
-      sb_model_is_rig(model)
-          ? g_strdup_printf(_("motion %s"), motion)
-          : g_strdup_printf(_("fit %s · film %s · surface %s · %s"), fit, film, surface, motion);
+      sb_device(model)->stem
+          ? g_strdup_printf(_("fit %s · film %s · surface %s · %s"), fit, film, surface, motion)
+          : g_strdup_printf(_("motion %s"), motion);
   sb_cells_text(cells, 1, y, room, text, sb_bench_pen(bench, SB_ROLE_SECOND, 0));
 }

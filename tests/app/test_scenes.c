@@ -1,6 +1,7 @@
 // Every shipped scene: sound, closes its energy and keeps to its plan. In slow mode also: its
 // figures do not depend on the number of frames, and a motion with inertia converges with its
 // tolerance.
+#include "app/base/device.h"
 #include "app/cli/run_text.h"
 #include "app/document/document.h"
 
@@ -58,7 +59,7 @@ static void actuates(const SbRun *run) {
   const SbSummary *summary = sb_run_summary(run);
   g_assert_true(summary->stage[SB_STAGE_B].reached);
   // The rig has no stop: its one actuation is the pull.
-  if (sb_model_is_rig(sb_run_model(run))) {
+  if (!sb_device(sb_run_model(run))->stem) {
     g_assert_true(summary->rig.found);
     g_assert_cmpuint(summary->rig.of.peaks, >, 10);
   } else {
@@ -88,7 +89,7 @@ static void keeps_plan(const SbRun *run) {
                 {"steps of films", offsetof(SbCounters, film_steps)},
                 {"fields", offsetof(SbCounters, field_evaluations)},
                 {"profiles", offsetof(SbCounters, profile_evaluations)}};
-  for (size_t i = 0; i < G_N_ELEMENTS(counts) && !sb_model_is_rig(sb_run_model(run)); i++) {
+  for (size_t i = 0; i < G_N_ELEMENTS(counts) && sb_device(sb_run_model(run))->stem; i++) {
     const size_t told = *(const size_t *)((const char *)&plan->expected + counts[i].place);
     const size_t done = *(const size_t *)((const char *)counters + counts[i].place);
     if (told > 2 * done || done > 2 * told) {
@@ -161,7 +162,7 @@ static void keeps_frames(const char *path) {
   g_assert_cmpfloat(fabs(x->force_peak / y->force_peak - 1), <, 1e-3);
   g_assert_cmpfloat(fabs(x->force_breakaway / y->force_breakaway - 1), <, 1e-3);
   g_assert_cmpfloat(fabs(x->energy.loop / y->energy.loop - 1), <, 1e-3);
-  if (sb_model_is_rig(sb_run_model(a))) {
+  if (!sb_device(sb_run_model(a))->stem) {
     g_assert_true(isnan(x->force_return_min));
   } else {
     g_assert_cmpfloat(fabs(x->force_return_min - y->force_return_min), <, 1e-3 * 14.5);

@@ -28,7 +28,7 @@ def listed():
 
 
 def sources():
-    return [name for folder in ("ui/*", "app/chart", "app/draw", "app/export", "app/section", "app/session",
+    return [name for folder in ("ui/*", "app/base", "app/chart", "app/draw", "app/export", "app/section", "app/session",
                                 "app/terminal")
             for name in glob.glob(folder + "/*.c")]
 

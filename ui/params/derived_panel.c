@@ -10,6 +10,7 @@
 // µl are those of thesis section 1.7.
 #include "ui/params/derived_panel.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/draw/theme.h"
@@ -60,7 +61,7 @@ typedef struct {
 static void set_bands(Panel *panel, const SbModel *model) {
   SbGland gland;
   SbGlandReadout readout[SB_GLAND_COUNT];
-  bool known = model != NULL && !sb_model_is_rig(model) && !sb_model_is_gasket(model);
+  bool known = model != NULL && sb_device(model)->gland;
   if (known) {
     sb_model_gland(&gland, model, SB_OUTER);
     known = sb_gland_readouts(readout, &gland, NULL) == SB_OK;
@@ -181,11 +182,11 @@ static void refresh(Panel *panel) {
                                               : sb_session_former_text(panel->session);
   set_bands(panel, model);
   // A plate on its rings has no glands, return or doses.
-  gtk_widget_set_visible(panel->grid, !sb_model_is_rig(model));
+  gtk_widget_set_visible(panel->grid, sb_device(model)->stem);
   for (int i = 0; i < ITEMS; i++) {
     // What only a ring on a floor has.
-    const gboolean shown = !sb_model_is_gasket(model) || (items[i].gland != SB_GLAND_FILL &&
-                                                          items[i].gland != SB_GLAND_STRETCH_INNER);
+    const gboolean shown = sb_device(model)->gland || (items[i].gland != SB_GLAND_FILL &&
+                                                       items[i].gland != SB_GLAND_STRETCH_INNER);
     GtkWidget *const row[] = {panel->name[i], panel->value[i], panel->bar[i], panel->icon[i],
                               panel->verdict[i]};
     for (size_t k = 0; k < G_N_ELEMENTS(row); k++) {

@@ -5,6 +5,7 @@
 // root-sum-square range and the band's source. Swell lines are there while a ring has swollen.
 #include "ui/params/gland_panel.h"
 
+#include "app/base/device.h"
 #include "app/base/format.h"
 #include "app/base/translation.h"
 #include "ui/views/signals.h"
@@ -150,8 +151,8 @@ static void refresh(Panel *panel) {
   SbGlandReadout all[SB_SEAL_COUNT][SB_GLAND_COUNT];
   gboolean swollen = FALSE;
   // The rings of the sliding-plate rig lie in no gland, nor do gaskets.
-  gtk_widget_set_visible(panel->expander, !sb_model_is_rig(model) && !sb_model_is_gasket(model));
-  model = sb_model_is_gasket(model) ? NULL : model;
+  gtk_widget_set_visible(panel->expander, sb_device(model)->gland);
+  model = sb_device(model)->gland ? model : NULL;
   for (int seal = 0; model != NULL && seal < SB_SEAL_COUNT; seal++) {
     SbGland gland;
     sb_model_gland(&gland, model, seal);

@@ -6,6 +6,7 @@
 // can be copied as a table.
 #include "ui/views/chart_view.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/chart/compare.h"
@@ -58,7 +59,7 @@ static const SbModel *model_of(SbSession *session) {
 
 static gboolean applies(const View *view) {
   const SbModel *model = model_of(view->session);
-  gboolean rig = sb_model_is_rig(model);
+  gboolean rig = !sb_device(model)->stem;
   switch (view->kind) {
   case SB_CHART_VIEW_FILM:
   case SB_CHART_VIEW_COMPARE:
@@ -110,7 +111,7 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData shown = data_of(view), *data = &shown;
   SbRect rect = inside(width, height);
-  bool rig = sb_chart_is_rig(&data->run);
+  bool rig = !sb_device(data->run.model)->stem;
   switch (view->kind) {
   case SB_CHART_VIEW_LOOP:
     (rig ? sb_signal_draw : sb_hysteresis_draw)(cr, rect, theme, data, SB_CHART_COMPACT);
@@ -141,7 +142,7 @@ static gboolean read_contact(const View *view, SbProfileReading *out) {
   const SbChartData *data = sb_session_chart(view->session);
   const gboolean film = view->kind == SB_CHART_VIEW_FILM;
   return (film || view->kind == SB_CHART_VIEW_PRESSURE) && !isnan(view->point_x) &&
-         !sb_chart_is_rig(&data->run) &&
+         sb_device(data->run.model)->stem &&
          sb_profiles_read(out, whole(view->area), data, SB_CHART_COMPACT, film, view->point_x,
                           view->point_y);
 }
@@ -170,7 +171,7 @@ static void describe_loop(SbSession *session, GString *text) {
     g_string_append(text, _("No run yet."));
     return;
   }
-  if (sb_chart_is_rig(&data->run)) {
+  if (!sb_device(data->run.model)->stem) {
     const SbSummary *ended = data->run.summary;
     if (ended != NULL && ended->rig.found) {
       static const char *const paths[] = {"cycle.force_breakaway_N", "rig.coefficient_static",
@@ -276,7 +277,7 @@ static const SbChartPredicted *shown_prediction(const View *view) {
   const SbChartData *data = sb_session_chart(view->session);
   const bool draws = view->kind == SB_CHART_VIEW_LOOP || view->kind == SB_CHART_VIEW_PRESSURE ||
                      view->kind == SB_CHART_VIEW_FILM;
-  return draws && !sb_chart_is_rig(&data->run) ? data->predicted : NULL;
+  return draws && sb_device(data->run.model)->stem ? data->predicted : NULL;
 }
 
 static void describe(gpointer data) {
@@ -293,7 +294,7 @@ static void describe(gpointer data) {
     describe_life(view->session, text);
   } else if (view->kind == SB_CHART_VIEW_SHELF) {
     describe_shelf(view->session, text);
-  } else if (view->kind == SB_CHART_VIEW_REASONS || sb_chart_is_rig(run)) {
+  } else if (view->kind == SB_CHART_VIEW_REASONS || !sb_device(run->model)->stem) {
     name = view->kind == SB_CHART_VIEW_PRESSURE ? _("Friction over load") : name;
     g_autofree char *reasons = sb_rig_reasons_text(run);
     g_string_append(text, reasons);
@@ -361,9 +362,9 @@ static gboolean scrub(View *view, double x, double y, double reach) {
   size_t frame = 0;
   const SbChartData shown = data_of(view), *data = &shown;
   gboolean hit =
-      sb_chart_is_rig(&data->run)
-          ? sb_signal_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y)
-          : sb_hysteresis_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y, reach);
+      sb_device(data->run.model)->stem
+          ? sb_hysteresis_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y, reach)
+          : sb_signal_hit(&frame, whole(view->area), data, SB_CHART_COMPACT, x, y);
   if (!hit) {
     return FALSE;
   }
@@ -375,7 +376,7 @@ static gboolean scrub(View *view, double x, double y, double reach) {
 // Only a valve's loop is enlarged.
 static gboolean may_zoom(const View *view) {
   const SbChartRun *run = &sb_session_chart(view->session)->run;
-  return view->kind == SB_CHART_VIEW_LOOP && !sb_chart_is_rig(run) && run->count > 0;
+  return view->kind == SB_CHART_VIEW_LOOP && sb_device(run->model)->stem && run->count > 0;
 }
 
 // Enlarges about a point; a factor of 0 shows all.

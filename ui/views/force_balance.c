@@ -3,6 +3,7 @@
 // quasi-static run lacks and the window does not draw.
 #include "ui/views/force_balance.h"
 
+#include "app/base/device.h"
 #include "app/base/format.h"
 
 #include <glib/gi18n.h>
@@ -86,19 +87,15 @@ void sb_force_balance_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
   }
   x = part(&canvas, x, y, scale, theme->role[SB_ROLE_FLUID], _("pressure"), frame->pressure_force);
   x = term(&canvas, x, y, scale, theme->role[SB_ROLE_SECOND], _("spring"), frame->spring_force);
-  const bool gasket = sb_model_is_gasket(data->run.model);
-  const char *const names[SB_SEAL_COUNT] = {[SB_OUTER] = gasket ? _("stem gasket") : _("outer"),
-                                            [SB_INNER] = gasket ? _("chamber gasket") : _("inner")};
+  const SbDevice *device = sb_device(data->run.model);
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     const SbSealFrame *seal = &frame->seal[i];
     if (seal->load <= 0 || seal->land_fraction <= 0) {
-      const char *off = gasket          ? _("no friction around the neck")
-                        : i == SB_OUTER ? _("outer seal off the land")
-                                        : _("inner seal off the land");
       x += 14;
-      x += sb_canvas_text(&canvas, off, &plain, x, y, SB_LEFT);
+      x += sb_canvas_text(&canvas, _(device->off[i]), &plain, x, y, SB_LEFT);
     } else {
-      x = term(&canvas, x, y, scale, sb_theme_seal(theme, i), names[i], seal->friction);
+      x = term(&canvas, x, y, scale, sb_theme_seal(theme, i), _(device->short_name[i]),
+               seal->friction);
     }
   }
   term(&canvas, x, y, scale, theme->role[SB_ROLE_THIRD], C_("label", "stop"), frame->stop_force);

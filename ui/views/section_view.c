@@ -3,6 +3,7 @@
 // the size of text and lines and enlarges the valve; drag moves it.
 #include "ui/views/section_view.h"
 
+#include "app/base/device.h"
 #include "app/base/translation.h"
 #include "app/chart/rig.h"
 #include "app/section/draw_cairo.h"
@@ -196,7 +197,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   View *view = user;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData *data = sb_session_chart(view->session);
-  if (sb_chart_is_rig(&data->run)) {
+  if (!sb_device(data->run.model)->stem) {
     // No valve to cut: the plate itself.
     SbRect rect = {MARGIN, 14, fmax(area_width - 2 * MARGIN, 1), fmax(area_height - 28, 1)};
     sb_rig_plate_draw(cr, rect, theme, data, SB_CHART_COMPACT);
@@ -256,8 +257,8 @@ static void describe(gpointer data) {
   g_autofree char *cutaway =
       g_strdup_printf(_("Cutaway of the valve, azimuth %.0f°, elevation %.0f°"),
                       azimuth * 180 / G_PI, elevation * 180 / G_PI);
-  const char *what = sb_chart_is_rig(&sb_session_chart(view->session)->run)
-                         ? _("Sliding plate on its rings")
+  const char *picture = sb_device(sb_session_chart(view->session)->run.model)->picture;
+  const char *what = picture != NULL    ? _(picture)
                      : is_cutaway(view) ? cutaway
                                         : _("Axial section of the valve");
   g_autofree char *at = where[0] != '\0' ? g_strdup_printf("%s, %s", what, where)
@@ -319,7 +320,7 @@ static void show_state(View *view) {
   gboolean solved = run != NULL && sb_run_plan(run)->section_fields;
   // The rig's picture has neither fields nor insets, and its forces and names always.
   const SbModel *model = sb_session_model(view->session);
-  gboolean rig = sb_model_is_rig(model);
+  gboolean rig = !sb_device(model)->stem;
   gtk_label_set_text(GTK_LABEL(view->heading), rig ? _("Rig") : _("Section"));
   gtk_widget_set_visible(view->inset_combo, !rig);
   gtk_widget_set_visible(view->toggles, !rig);

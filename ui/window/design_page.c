@@ -2,6 +2,7 @@
 // design_job.h, pictures are those of app/chart/design.h.
 #include "ui/window/design_page.h"
 
+#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/export/design_map.h"
@@ -354,7 +355,7 @@ static void follow(Page *page) {
     sb_design_ask_init(&page->ask, document);
     page->chosen = sb_figure_find("cycle.force_return_margin_N");
     const SbModel *model = sb_session_model(page->session);
-    if (kind == SB_VALVE_GASKET ||
+    if (!sb_device_of_kind(kind)->gland ||
         (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0)) {
       page->ask.closed = FALSE; // no closed form knows such a section
     }

@@ -1,5 +1,6 @@
 // Follows the document: another fitment than these two (of `list models`) presses neither button.
 #include "ui/window/model_switch.h"
+#include "app/base/device.h"
 
 #include "ui/views/signals.h"
 #include "ui/views/style.h"
@@ -30,7 +31,7 @@ static void refresh(Switch *self) {
   }
   self->refreshing = FALSE;
   const SbModel *model = sb_session_model(self->session);
-  gtk_widget_set_visible(self->box, !sb_model_is_rig(model) && !sb_model_is_gasket(model));
+  gtk_widget_set_visible(self->box, sb_device(model)->gland);
 }
 
 static void on_toggled(GtkToggleButton *button, Switch *self) {

@@ -3,6 +3,7 @@
 // one it is compared with; the document stays as it is.
 #include "ui/window/presentation.h"
 
+#include "app/base/device.h"
 #include "app/chart/compare.h"
 #include "app/chart/page.h"
 #include "app/export/render.h"
@@ -142,7 +143,7 @@ static void draw_picture(Presentation *self, cairo_t *cr, SbRect rect, const SbT
     return;
   }
   SbRenderView view = *sb_render_view(name);
-  if (view.cutaway && sb_chart_is_rig(&data->run)) { // the sliding plate has no cutaway
+  if (view.cutaway && !sb_device(data->run.model)->stem) { // the sliding plate has no cutaway
     view = *sb_render_view("section");
   }
   view.width *= pictures[self->picture].share;

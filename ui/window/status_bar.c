@@ -2,6 +2,7 @@
 // time, error estimate, and the warnings with a list behind a button.
 #include "ui/window/status_bar.h"
 
+#include "app/base/device.h"
 #include "app/base/format.h"
 #include "ui/views/later.h"
 #include "ui/views/signals.h"
@@ -43,10 +44,10 @@ static void refresh_models(Bar *bar) {
   sb_model_choice_name(model, SB_P_MODELS_FILM, film, sizeof film);
   sb_model_choice_name(model, SB_P_MODELS_SURFACE, surface, sizeof surface);
   sb_model_choice_name(model, SB_P_MODELS_MOTION, motion, sizeof motion);
-  g_autofree char *text = sb_model_is_rig(model)
-                              ? g_strdup_printf(_("motion %s"), motion)
-                              : g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit,
-                                                film, surface, motion);
+  g_autofree char *text =
+      sb_device(model)->stem
+          ? g_strdup_printf(_("fit %s, film %s, surface %s, motion %s"), fit, film, surface, motion)
+          : g_strdup_printf(_("motion %s"), motion);
   if (run == NULL && sb_session_state(bar->session) == SB_SESSION_RUNNING) {
     g_autofree char *computed = g_steal_pointer(&text);
     text = g_strdup_printf(_("being computed: %s"), computed);

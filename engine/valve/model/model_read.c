@@ -65,14 +65,6 @@ const SbFitKind *sb_model_fit(const SbModel *model) {
   return sb_fit_kind(model->fit);
 }
 
-bool sb_model_is_rig(const SbModel *model) {
-  return model != NULL && !sb_motion_kind(model)->valve;
-}
-
-bool sb_model_is_gasket(const SbModel *model) {
-  return model != NULL && model->kind == SB_VALVE_GASKET;
-}
-
 bool sb_model_has_spring(const SbModel *model) {
   return model->spring_stiffness > 0 || model->spring_preload > 0;
 }

@@ -10,6 +10,10 @@ static const SbMotionKind kinds[] = {
     [SB_MODEL_MOTION_BODIES] = {.valve = true, .inertia = true, .joints = true},
 };
 
+const SbMotionKind *sb_motion_choice(int choice) {
+  return &kinds[choice];
+}
+
 const SbMotionKind *sb_motion_kind(const SbModel *model) {
-  return &kinds[model->motion];
+  return sb_motion_choice((int)model->motion);
 }

@@ -12,5 +12,8 @@ typedef struct {
   bool lives;   // a life of many actuations can follow (life.actuations)
 } SbMotionKind;
 
+// Returns the row of a choice (SB_MODEL_MOTION_...); static.
+const SbMotionKind *sb_motion_choice(int choice);
+
 // Returns the row of the model's choice; static.
 const SbMotionKind *sb_motion_kind(const SbModel *model);

@@ -317,12 +317,6 @@ void sb_model_choice_name(const SbModel *model, SbParamId id, char *name, size_t
 // Returns what the model's fit (models.fit) computes; static.
 const SbFitKind *sb_model_fit(const SbModel *model);
 
-// Returns whether the model is the sliding plate instead of a valve; false for NULL.
-bool sb_model_is_rig(const SbModel *model);
-
-// Returns whether the stem slides through gaskets; false for NULL.
-bool sb_model_is_gasket(const SbModel *model);
-
 // Returns whether a return spring pushes the stem out.
 bool sb_model_has_spring(const SbModel *model);
 
@@ -335,7 +329,7 @@ const SbValveShape *sb_model_shape(const SbModel *model);
 // Returns inertia and joints of the parts.
 const SbValveParts *sb_model_parts(const SbModel *model);
 
-// Returns the sliding plate (meaningful if sb_model_is_rig()).
+// Returns the sliding plate (meaningful if no valve moves: sb_motion_kind()).
 const SbRig *sb_model_rig(const SbModel *model);
 
 // Returns the default style of the section drawing.
