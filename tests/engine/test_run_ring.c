@@ -136,15 +136,11 @@ static void test_beside(void) {
   sb_evaluator_destroy(evaluator);
 }
 
-// A film of some nanometres between smoother faces hangs on single nodes of the dragged ring, and
-// its asperities' friction jumps with them (at this roughness on the present mesh): solved within
-// the film's error, which the friction's holds.
-static void test_jump(void) {
-  const SbOverride rough[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
-                              {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
-                              {SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_ON},
-                              {SB_P_SURFACE_SIGMA, 1.3e-8}};
-  SbModel *model = ring_model(rough, G_N_ELEMENTS(rough));
+// A film of some nanometres between smooth faces depends on single nodes of the dragged ring, and
+// the friction of its asperities jumps with them: solved within the film's error, which is at most
+// three times its estimate; the friction's error covers the jump.
+static void solve_jump(const SbOverride *rough, size_t count, double speed) {
+  SbModel *model = ring_model(rough, count);
   SbCounters counts = {0};
   SbWarnings *warnings = g_new0(SbWarnings, 1);
   SbSlidingMemory *memory;
@@ -153,7 +149,7 @@ static void test_jump(void) {
                               .seal = SB_OUTER,
                               .pressure =
                                   sb_model_seal_pressure(model, SB_OUTER, SB_CHAMBER_AT_REST),
-                              .speed = model->speed,
+                              .speed = speed,
                               .memory = memory,
                               .counts = &counts,
                               .warnings = warnings};
@@ -170,7 +166,7 @@ static void test_jump(void) {
   const double asked = friction / state.borne_share;
   g_assert_cmpfloat(state.friction_error, >, 0.5 * model->tolerance * friction);
   g_assert_cmpfloat(state.friction_error, >=, 0.999 * fabs(asked - friction));
-  g_assert_cmpfloat(state.friction_error, <, 2 * state.central_error * friction);
+  g_assert_cmpfloat(state.friction_error, <, 4 * state.central_error * friction);
   const size_t fits = counts.fit_solves;
   g_assert_cmpint(sb_sliding_solve(&again, &task, NULL), ==, SB_OK);
   g_assert_cmpuint(counts.fit_solves, ==, fits);
@@ -178,6 +174,42 @@ static void test_jump(void) {
   sb_sliding_memory_destroy(memory);
   g_free(warnings);
   sb_model_destroy(model);
+}
+
+static void test_jump(void) {
+  const SbOverride nanometres[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                                   {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
+                                   {SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_ON},
+                                   {SB_P_SURFACE_SIGMA, 1.3e-8}};
+  solve_jump(nanometres, G_N_ELEMENTS(nanometres), 20.0 / 60000);
+  // Valve 850 of the campaign random-valves, seed 1: 5.5 %, the film known to 2.3 %.
+  const SbOverride soft[] = {{SB_P_MODELS_FILM, SB_FILM_KARASZKIEWICZ},
+                             {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
+                             {SB_P_MODELS_ADHESION, SB_MODEL_ADHESION_ON},
+                             {SB_P_MODELS_SURFACE, 1},
+                             {SB_P_BORE_DIAMETER, 0.0034398339133535423},
+                             {SB_P_BORE_LAND_EDGE, 0.0023579157363824974},
+                             {SB_P_GLAND_RADIAL_SPACE, 0.0009501966309772595},
+                             {SB_P_GLAND_AXIAL_WIDTH, 0.0022743559586116645},
+                             {SB_P_GLAND_FLOOR_FRICTION, 0.0004138799902632439},
+                             {SB_P_GLAND_WALL_FRICTION, 0},
+                             {SB_P_SEAL_SECTION_DIAMETER, 0.0012150565860262429},
+                             {SB_P_SEAL_INNER_DIAMETER, 0.0014112204238974008},
+                             {SB_P_SEAL_MODULUS, 1233164.6996042493},
+                             {SB_P_SEAL_POISSON_RATIO, 0.4715101645676013},
+                             {SB_P_STEM_PRESSURE_DIAMETER, 0.0029790662862817486},
+                             {SB_P_STEM_SEAL_SPACING, 0.0053820426208711775},
+                             {SB_P_DRIVE_STROKE, 0.0029262038074983824},
+                             {SB_P_CANISTER_PRESSURE, 757296.2587915391},
+                             {SB_P_FLUID_VISCOSITY, 0.00011822609607504347},
+                             {SB_P_SURFACE_SIGMA, 1.2658735705977926e-07},
+                             {SB_P_SURFACE_SIGMA_OVER_BETA, 0.24952428303943552},
+                             {SB_P_SURFACE_GT_PRODUCT, 0.05841299659698933},
+                             {SB_P_SURFACE_HAMAKER_CONSTANT, 8.238883844215237e-20},
+                             {SB_P_FRICTION_SHEAR_STRENGTH, 531090.4268466848},
+                             {SB_P_FRICTION_LOAD_COEFFICIENT, 0.09992941152743007},
+                             {SB_P_OUTPUT_TOLERANCE, 1e-2}};
+  solve_jump(soft, G_N_ELEMENTS(soft), 1.7061087901631977);
 }
 
 // Friction is the law's over the pressure that is drawn, and forces balance: both seals, both ways.

@@ -208,12 +208,13 @@ typedef struct {
 } RoundEnd;
 
 // Returns whether friction and ring of a round agree: to half the model's tolerance, or to a jump
-// within the error of the film in `state` (sb_sliding_drag()) if no smaller difference can be
-// found: in the last round, or in a `bracket` of that width. Else moves the next law, *law, into
-// the bracket.
+// within the error of the film in `state` (sb_sliding_drag()), which is at most three times its
+// estimate, if no smaller difference can be found: in the last round, or in a `bracket` of that
+// width. Else moves the next law, *law, into the bracket.
 static bool judge_round(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFitment *on,
                         const RoundEnd *end, double bracket[2], bool last,
                         const SbSealState *state) {
+  static const double ESTIMATES = 3;
   const double close = 0.5 * task->model->tolerance;
   const double asked = end->asked, apart = fabs(asked - end->before);
   if (on->fit.ring.state != SB_RING_SLIDES) {
@@ -222,7 +223,8 @@ static bool judge_round(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingF
   if (apart > fmax(close, on->jump) * asked) {
     near_law(law, &on->law, bracket);
     last = last || bracket[1] - bracket[0] <= 2 * close * law->shear;
-    on->jump = last && apart <= state->central_error * asked ? apart / asked : on->jump;
+    const bool within = apart <= ESTIMATES * state->central_error * asked;
+    on->jump = last && within ? apart / asked : on->jump;
   }
   return apart <= fmax(close, on->jump * (1 + 4 * DBL_EPSILON)) * asked;
 }
