@@ -165,28 +165,32 @@ static void interpolate(double out[SB_SPEED_VALUES], const SbSpeedCell *cell, do
   }
 }
 
-// Returns the largest relative difference of guessed values from the solved ones at a speed: films
-// and friction; *rubs is that of friction alone.
-static double miss_at(double *rubs, const SbSpeedStates *states, double speed, const double *value,
-                      const double *guess) {
+// Relative differences of guessed values from the solved ones at a speed.
+typedef struct {
+  double film, friction;
+  double most; // the largest of them and of the real area's part of the friction
+} Miss;
+
+static Miss miss_at(const SbSpeedStates *states, double speed, const double *value,
+                    const double *guess) {
   SbSealState solved = states->base, guessed = states->base;
   give(&solved, states, speed, value);
   give(&guessed, states, speed, guess);
   const double friction = sb_sliding_friction(&solved);
-  double miss = fmax(fabs(guessed.film_min / solved.film_min - 1),
-                     fabs(guessed.film_central / solved.film_central - 1));
-  miss = fmax(miss, fabs(guessed.real_area_share - solved.real_area_share) *
-                        states->task.model->shear_strength / friction *
-                        (solved.contact_right - solved.contact_left) *
-                        states->task.model->bore_circumference);
-  *rubs = fabs(sb_sliding_friction(&guessed) / friction - 1);
-  return fmax(miss, *rubs);
+  Miss miss = {.film = fmax(fabs(guessed.film_min / solved.film_min - 1),
+                            fabs(guessed.film_central / solved.film_central - 1)),
+               .friction = fabs(sb_sliding_friction(&guessed) / friction - 1)};
+  const double area = fabs(guessed.real_area_share - solved.real_area_share) *
+                      states->task.model->shear_strength / friction *
+                      (solved.contact_right - solved.contact_left) *
+                      states->task.model->bore_circumference;
+  miss.most = fmax(fmax(miss.film, area), miss.friction);
+  return miss;
 }
 
-// Returns the same difference for a cell's straight line through its ends, or its parabola through
+// Returns the same differences for a cell's straight line through its ends, or its parabola through
 // ends and middle, at its quarter.
-static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCell *cell,
-                      bool parabola) {
+static Miss miss_of(const SbSpeedStates *states, const SbSpeedCell *cell, bool parabola) {
   static const double WEIGHT[2][3] = {{0.75, 0, 0.25}, {0.375, 0.75, -0.125}};
   const double *weight = WEIGHT[parabola];
   double guess[SB_SPEED_VALUES];
@@ -194,7 +198,7 @@ static double miss_of(double *rubs, const SbSpeedStates *states, const SbSpeedCe
     guess[k] = weight[0] * cell->value[0][k] + weight[1] * cell->value[2][k] +
                weight[2] * cell->value[3][k];
   }
-  return miss_at(rubs, states, speed_of(cell->place + cell->width / 4), cell->value[1], guess);
+  return miss_at(states, speed_of(cell->place + cell->width / 4), cell->value[1], guess);
 }
 
 // Distance of the two states from the reference speed, in ln(speed).
@@ -209,18 +213,18 @@ static bool is_beside(double out[SB_SPEED_VALUES], SbSpeedStates *states, double
   double here[SB_SPEED_VALUES];
   take(here, &states->base);
   if (!states->beside_known) {
-    double guess[SB_SPEED_VALUES], rubs;
+    double guess[SB_SPEED_VALUES];
     states->beside_known = true;
     const bool solved = solve(states->beside[0], states, reference * exp(-BESIDE)) &&
                         solve(states->beside[1], states, reference * exp(BESIDE));
     for (int k = 0; k < SB_SPEED_VALUES && solved; k++) {
       guess[k] = 0.5 * (states->beside[0][k] + states->beside[1][k]);
     }
-    const double miss = solved ? miss_at(&rubs, states, reference, here, guess) : NAN;
-    states->beside_usable = miss <= SB_SPEED_TOLERANCE;
+    const Miss miss = solved ? miss_at(states, reference, here, guess) : (Miss){.most = NAN};
+    states->beside_usable = miss.most <= SB_SPEED_TOLERANCE;
     if (states->beside_usable) {
-      states->error = fmax(states->error, miss);
-      states->friction_error = fmax(states->friction_error, rubs);
+      states->error = fmax(states->error, miss.film);
+      states->friction_error = fmax(states->friction_error, miss.friction);
     }
   }
   for (int k = 0; k < SB_SPEED_VALUES && states->beside_usable; k++) {
@@ -250,7 +254,7 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
   SbSpeedCell cell = {.width = states->near ? GRID / 4 : GRID};
   const int last = WIDE * GRID / cell.width - 1;
   cell.place = cell.width * (int)fmin(fmax(floor(place / cell.width), 0), last);
-  double miss = 0, rubs = 0;
+  Miss miss;
   for (;;) {
     const int at[] = {cell.place, cell.place + cell.width / 4, cell.place + cell.width / 2,
                       cell.place + cell.width};
@@ -262,18 +266,17 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
         memcpy(cell.value[i], node->value, sizeof node->value);
       }
     }
-    miss = cell.usable ? miss_of(&rubs, states, &cell, true) : NAN;
-    if (miss <= SB_SPEED_TOLERANCE || cell.width == 4 || states->status != SB_OK) {
+    miss = cell.usable ? miss_of(states, &cell, true) : (Miss){.most = NAN};
+    if (miss.most <= SB_SPEED_TOLERANCE || cell.width == 4 || states->status != SB_OK) {
       break;
     }
     cell.width /= 2;
     cell.place += place >= cell.place + cell.width ? cell.width : 0;
   }
   if (cell.usable) {
-    double straight_rubs;
-    (void)miss_of(&straight_rubs, states, &cell, false);
-    states->error = fmax(states->error, miss);
-    states->friction_error = fmax(states->friction_error, left(straight_rubs, rubs));
+    const Miss straight = miss_of(states, &cell, false);
+    states->error = fmax(states->error, miss.film);
+    states->friction_error = fmax(states->friction_error, left(straight.friction, miss.friction));
   } else if (states->status == SB_OK) {
     sb_warn(states->task.warnings, "film-speed", sb_input(SB_P_MODELS_FILM),
             "no film of the %s seal about %.3g mm/s: it follows the power 0.6 of the speed from "

@@ -63,7 +63,7 @@ typedef struct {
   double starved_from; // speed from which on `starved` applies [m/s]; NAN: not yet known
   double starved[SB_SPEED_VALUES];
   size_t solves;         // number of states solved
-  double error;          // largest relative deviation in a used cell
+  double error;          // relative error of the films: their largest deviation in a used cell
   double friction_error; // relative error of the friction that remains with the cubic
   // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available.
   SbStatus status;

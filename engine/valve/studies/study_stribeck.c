@@ -40,12 +40,16 @@ static void solve(double *value, SbStudyWork *work, int line, double speed) {
   if (!sb_study_goes_on(work, status, &report) || !(state.film_central > 0)) {
     return;
   }
+  const double friction = sb_sliding_friction(&state);
+  if (friction > 0) {
+    work->out->error = fmax(work->out->error, state.friction_error / friction);
+  }
   value[RATIO] = state.lambda;
   value[CENTRAL] = state.film_central;
   value[LEAST] = state.film_min;
   value[BOUNDARY] = state.boundary_area + state.boundary_load;
   value[VISCOUS] = state.friction_viscous;
-  value[COEFFICIENT] = sb_sliding_friction(&state) / state.load;
+  value[COEFFICIENT] = friction / state.load;
   value[SHARE] = state.asperity_share;
   value[AREA] = state.real_area_share;
 }
@@ -67,8 +71,8 @@ static int places(double at[POINTS + 1], const SbStudyWork *work, double own) {
   return count;
 }
 
-// Adds the interpolation errors of the states to films and friction, and reports speeds without a
-// film.
+// Adds the errors of the films, and reports speeds without a film. solve() adds those of the
+// friction.
 static void account(SbStudyWork *work) {
   SbStudy *out = work->out;
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
