@@ -78,6 +78,9 @@ static char *verdict_figure(const SbSummary *summary, int kind, const SbCaseVerd
 }
 
 void sb_bench_draw_verdict(SbBench *bench, int y) {
+  if (!sb_device(sb_session_model(bench->session))->stem) {
+    return; // the sliding plate has no verdict
+  }
   const SbSummary *summary = sb_verdict_summary(bench->session);
   const bool predicted = sb_session_predicted(bench->session) != NULL;
   static const uint32_t sign[] = {

@@ -52,6 +52,7 @@ def the_rig_shows_its_coefficients(folder):
         reasons = app.find("chart", "Why they differ").description
         assert "which exceed the mean force" in reasons, reasons
         app.find("chart", "Friction over load")
+        assert not app.all("toggle button", re.compile("^(Seals|Returns|Doses): ")), "a plate has no verdict"
         # The playhead moves over the signal.
         app.key("Home")
         wait("the start", lambda: app.status().startswith("stage A"))

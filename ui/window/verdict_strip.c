@@ -4,6 +4,7 @@
 // those questions' words, then the other figures.
 #include "ui/window/verdict_strip.h"
 
+#include "app/base/device.h"
 #include "app/session/verdict_text.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
@@ -17,7 +18,7 @@ enum { ALL, FAILING_FIGURES, FAILING_WORDS, WORDS, LEVELS };
 
 typedef struct {
   SbSession *session;
-  GtkWidget *box, *predicted;
+  GtkWidget *scroller, *box, *predicted;
   GtkWidget *button[SB_VERDICT_COUNT], *sign[SB_VERDICT_COUNT], *word[SB_VERDICT_COUNT],
       *figure[SB_VERDICT_COUNT], *why[SB_VERDICT_COUNT];
   bool fails[SB_VERDICT_COUNT];
@@ -93,6 +94,8 @@ static void refresh(Strip *strip) {
     sb_style_name(strip->button[i], name, why);
     gtk_widget_set_sensitive(strip->button[i], summary != NULL);
   }
+  // The sliding plate has no verdict.
+  gtk_widget_set_visible(strip->scroller, sb_device(sb_session_model(strip->session))->stem);
   sb_style_former(strip->box, sb_session_shows_former(strip->session));
   gtk_widget_set_visible(strip->predicted, predicted != NULL);
   refit(strip);
@@ -148,7 +151,7 @@ GtkWidget *sb_verdict_strip_new(SbSession *session) {
   strip->predicted = add_label(strip->box, _("predicted"), "sb-note");
   gtk_widget_hide(strip->predicted);
   // It never decides how narrow the window can be.
-  GtkWidget *scroller = gtk_scrolled_window_new(NULL, NULL);
+  GtkWidget *scroller = strip->scroller = gtk_scrolled_window_new(NULL, NULL);
   gtk_scrolled_window_set_policy(GTK_SCROLLED_WINDOW(scroller), GTK_POLICY_EXTERNAL,
                                  GTK_POLICY_NEVER);
   sb_style_class(scroller, "sb-verdicts");
@@ -160,6 +163,7 @@ GtkWidget *sb_verdict_strip_new(SbSession *session) {
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), strip);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), strip);
   gtk_widget_show_all(scroller);
+  gtk_widget_set_no_show_all(scroller, TRUE); // the model decides
   refresh(strip);
   return scroller;
 }

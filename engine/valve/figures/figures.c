@@ -168,11 +168,11 @@ void sb_figures_clear(SbSummary *summary) {
 }
 
 void sb_figures_of_model(SbSummary *summary, const SbModel *model) {
-  summary->metered_volume = model->supply.volume;
-  summary->doses = (double)sb_chamber_doses(&model->supply);
   if (!sb_motion_kind(model)->valve) {
     return; // the plate has no glands and gives no dose
   }
+  summary->metered_volume = model->supply.volume;
+  summary->doses = (double)sb_chamber_doses(&model->supply);
   summary->filling_time = model->filling_time;
   summary->pressure_force = model->pressure_force;
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
