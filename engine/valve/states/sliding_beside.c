@@ -17,7 +17,6 @@
 
 #include <math.h>
 #include <pthread.h>
-#include <stddef.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -122,79 +121,6 @@ static double step_of(int i, double at, double part) {
   return part * (i == POISSON ? 5 * (0.5 - at) : at != 0 ? fabs(at) * (size ? SIZES : 1) : unit[i]);
 }
 
-// ---- What the solvers make of them
-
-static SbSlidingSolved *slot(SbSlidingMemory *memory, int i) {
-  SbSlidingSolved *const slots[SB_SLIDING_FILMS] = {&memory->plane, &memory->fitted, &memory->rest};
-  return slots[i];
-}
-
-// Runs of doubles in a solution.
-#define RUN(from, to) offsetof(SbSlidingSolution, from), offsetof(SbSlidingSolution, to)
-#define FILM_RUNS(i)                                                                               \
-  {RUN(on[i].film.film_min, on[i].film.ruptured)}, {                                               \
-    RUN(on[i].film.hertz_half_width, on[i].film.regime)                                            \
-  }
-static const struct {
-  size_t from, to;
-} runs[] = {{RUN(fit.squeeze, fit.touches)},
-            {RUN(fit.ring.floor_load, fit.ring.drag_limit)},
-            {RUN(fit.ring.turn, fit.ring.state)},
-            {RUN(fit.profile_x, fit.surface)},
-            {RUN(fit.surface.left, body)}, // from here on what the fitment alone has not
-            {RUN(body.load, body.compliance.modes)},
-            {RUN(body.compliance.left, on)},
-            FILM_RUNS(0),
-            FILM_RUNS(1),
-            FILM_RUNS(2)};
-#undef FILM_RUNS
-#undef RUN
-enum { RUNS = sizeof runs / sizeof *runs, FITMENT_RUNS = 4 };
-
-// Adds a multiple of one solution's numbers to another's: those of the runs `first` to before
-// `end`.
-static void add_runs(SbSlidingSolution *out, double by, const SbSlidingSolution *from, size_t first,
-                     size_t end) {
-  for (size_t k = first; k < end; k++) {
-    double *a = (double *)(void *)((char *)out + runs[k].from);
-    const double *b = (const double *)(const void *)((const char *)from + runs[k].from);
-    for (size_t i = 0; i < (runs[k].to - runs[k].from) / sizeof(double); i++) {
-      a[i] += by * b[i];
-    }
-  }
-}
-
-static void add(SbSlidingSolution *out, double by, const SbSlidingSolution *from) {
-  add_runs(out, by, from, 0, RUNS);
-}
-
-static void take(SbSlidingSolution *out, SbSlidingMemory *memory) {
-  out->fit = memory->now->fit;
-  out->body = memory->body;
-  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
-    const SbSlidingSolved *from = slot(memory, i);
-    out->on[i].solved = from->fresh;
-    out->on[i].fitted = from->fitted;
-    out->on[i].share = from->share;
-    out->on[i].film = from->film;
-  }
-}
-
-// Returns whether a state was solved in the same way as another, or its fit alone was, so that both
-// may be terms of a sum.
-static bool alike(const SbSlidingSolution *a, const SbSlidingSolution *b, bool fitment) {
-  bool same = a->fit.profile_count == b->fit.profile_count && a->fit.touches == b->fit.touches &&
-              a->fit.ring.state == b->fit.ring.state;
-  same = same && (fitment || (a->fit.surface.modes == b->fit.surface.modes &&
-                              a->body.compliance.modes == b->body.compliance.modes));
-  for (int i = 0; i < SB_SLIDING_FILMS && !fitment; i++) {
-    same = same && a->on[i].solved == b->on[i].solved && a->on[i].fitted == b->on[i].fitted &&
-           a->on[i].film.ruptured == b->on[i].film.ruptured &&
-           a->on[i].film.starved == b->on[i].film.starved;
-  }
-  return same;
-}
-
 // Choices of a task that affect a solver.
 enum { CHOICES = 8 };
 static void choose(int out[CHOICES], const SbSlidingTask *task) {
@@ -276,16 +202,16 @@ static void lend(SbSlidingMemory *memory, SbSlidingSlopes *slopes, Anchor *ancho
   pthread_mutex_lock(&slopes->films);
   memory->lender = slopes;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
-    slot(memory, i)->own = &anchor->solver[i];
-    slot(memory, i)->on_base = next;
+    sb_sliding_slot(memory, i)->own = &anchor->solver[i];
+    sb_sliding_slot(memory, i)->on_base = next;
   }
 }
 
 void sb_sliding_sum_end(SbSlidingMemory *memory) {
   memory->sums = SB_SUM_NOTHING;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
-    slot(memory, i)->own = NULL;
-    slot(memory, i)->on_base = false;
+    sb_sliding_slot(memory, i)->own = NULL;
+    sb_sliding_slot(memory, i)->on_base = false;
   }
   if (memory->lender != NULL) {
     pthread_mutex_unlock(&memory->lender->films);
@@ -319,7 +245,7 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
   }
   other.pressure.left += other.pressure.right;
   for (int i = 0; i < SB_SLIDING_FILMS; i++) {
-    slot(memory, i)->fresh = false;
+    sb_sliding_slot(memory, i)->fresh = false;
   }
   if (part == BY_FITMENT) {
     memory->sum = anchor->is;
@@ -339,7 +265,7 @@ static SbStatus solve_at(SbSlidingSolution *out, const SbSlidingTask *task, cons
   } else {
     lend(memory, slopes, anchor, !made);
     status = sb_sliding_solve_once(&other, drags, &state, NULL);
-    take(out, memory);
+    sb_solution_take(out, memory);
   }
   sb_sliding_sum_end(memory);
   free(model);
@@ -380,7 +306,7 @@ static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTas
     const bool alone = bare && k == 1;
     const Part what = i >= FILMS ? BY_FITMENT : alone ? FITMENT_ALONE : WHOLE;
     *status = solve_at(&end[k], task, law, z, slopes, anchor, what);
-    if (*status != SB_OK || !alike(&end[k], &anchor->is, alone)) {
+    if (*status != SB_OK || !sb_solution_alike(&end[k], &anchor->is, alone)) {
       return false;
     }
   }
@@ -390,15 +316,17 @@ static bool find_slope(Column *out, SbSlidingSolution end[2], const SbSlidingTas
   }
   memset(&out->slope, 0, sizeof out->slope);
   if (at == 0) { // (4 f(h/2) - f(h) - 3 f(0))/h
-    add(&out->slope, 4 / h, &end[1]);
-    add(&out->slope, -1 / h, &end[0]);
-    add(&out->slope, -3 / h, is);
+    sb_solution_add(&out->slope, 4 / h, &end[1], SB_SOLUTION_WHOLE);
+    sb_solution_add(&out->slope, -1 / h, &end[0], SB_SOLUTION_WHOLE);
+    sb_solution_add(&out->slope, -3 / h, is, SB_SOLUTION_WHOLE);
   } else {
-    const size_t central = bare ? FITMENT_RUNS : RUNS;
-    add_runs(&out->slope, 1 / (2 * h), &end[0], 0, central);
-    add_runs(&out->slope, -1 / (2 * h), &end[1], 0, central);
-    add_runs(&out->slope, 1 / h, &end[0], central, RUNS);
-    add_runs(&out->slope, -1 / h, is, central, RUNS);
+    const SbSolutionPart central = bare ? SB_SOLUTION_FITMENT : SB_SOLUTION_WHOLE;
+    sb_solution_add(&out->slope, 1 / (2 * h), &end[0], central);
+    sb_solution_add(&out->slope, -1 / (2 * h), &end[1], central);
+    if (bare) {
+      sb_solution_add(&out->slope, 1 / h, &end[0], SB_SOLUTION_FILMS);
+      sb_solution_add(&out->slope, -1 / h, is, SB_SOLUTION_FILMS);
+    }
   }
   for (int k = 0; k < 2; k++) {
     const double fault = fmax(end[k].fit.ring.fault - is->fit.ring.fault, 0);
@@ -529,7 +457,7 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
       depth = i < FILMS || status != SB_OK ? SB_SUM_NOTHING : SB_SUM_FITMENT;
       continue;
     }
-    add(sum, by_this, &column->slope);
+    sb_solution_add(sum, by_this, &column->slope, SB_SOLUTION_WHOLE);
     sum->fit.ring.fault += fabs(by_this) * column->fault[by_this < 0];
   }
   if (sum != NULL) {
@@ -545,26 +473,4 @@ SbStatus sb_sliding_sum(const SbSlidingTask *task, const SbSlidingLaw *law,
   }
   const bool fatal = status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY;
   return fatal ? status : SB_OK;
-}
-
-void sb_sliding_copy_film(SbSlidingSolved *out, SbSlidingMemory *memory) {
-  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
-    if (slot(memory, i) == out) {
-      out->film = memory->sum.on[i].film;
-      out->fitted = memory->sum.on[i].fitted;
-      out->share = memory->sum.on[i].share;
-    }
-  }
-}
-
-bool sb_sliding_film_summed(const SbSlidingMemory *memory, const SbSlidingSolved *which,
-                            bool fitted) {
-  const SbSlidingSolved *const slots[SB_SLIDING_FILMS] = {&memory->plane, &memory->fitted,
-                                                          &memory->rest};
-  bool is = false;
-  for (int i = 0; i < SB_SLIDING_FILMS; i++) {
-    is =
-        is || (slots[i] == which && memory->sum.on[i].solved && memory->sum.on[i].fitted == fitted);
-  }
-  return is && memory->sums == SB_SUM_ALL;
 }

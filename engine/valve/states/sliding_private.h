@@ -73,6 +73,23 @@ typedef struct {
   } on[SB_SLIDING_FILMS];
 } SbSlidingSolution;
 
+// Parts of a solution: all, fit without its surface, or surface and films.
+typedef enum { SB_SOLUTION_WHOLE, SB_SOLUTION_FITMENT, SB_SOLUTION_FILMS } SbSolutionPart;
+
+// Adds `by` times the numbers of a part of one solution to those of another.
+void sb_solution_add(SbSlidingSolution *out, double by, const SbSlidingSolution *from,
+                     SbSolutionPart part);
+
+// Sets a solution from the last task of a memory.
+void sb_solution_take(SbSlidingSolution *out, SbSlidingMemory *memory);
+
+// Returns whether two states were solved in the same way, or, with `fitment`, their fits without
+// surfaces were, so that both may be terms of a sum.
+bool sb_solution_alike(const SbSlidingSolution *a, const SbSlidingSolution *b, bool fitment);
+
+// Returns the memory's film with index `i` below SB_SLIDING_FILMS; borrowed.
+SbSlidingSolved *sb_sliding_slot(SbSlidingMemory *memory, int i);
+
 // Slopes of the solvers' results near the state of a stored ring. It is filled when slopes are
 // first needed, and has a lock: several threads may use it at the same time.
 typedef struct SbSlidingSlopes SbSlidingSlopes;
