@@ -367,7 +367,7 @@ SbStatus sb_dynamics_init(SbDynamics *s, const SbDynamicsModel *m, SbReport *rep
   s->kinetic_start = 0.5 * m->mass * s->at.v * s->at.v;
   s->stored_start = sb_motion_stored_energy(s, 0.0, &s->at);
   s->accumulated_at = -1.0;
-  s->broke.event = s->mark.event = EVENT_NONE;
+  s->broke.event = s->mark.event = s->envelope.mark.event = EVENT_NONE;
   return sb_succeed(report);
 }
 

@@ -259,6 +259,37 @@ typedef struct {
   double middle[2], power[2][SB_DYNAMICS_TERMS], taken[SB_DYNAMICS_TERMS]; // [s], [W], [J]
 } SbDynamicsGroup;
 
+// What a cycle of stick-slip changes per unit of time (private): the energies, the stretch, the
+// speed, deflections and dwells at its break-away.
+enum {
+  SB_DYNAMICS_OF_STRETCH = SB_DYNAMICS_TERMS,
+  SB_DYNAMICS_OF_SPEED,
+  SB_DYNAMICS_OF_DEFLECTION,
+  SB_DYNAMICS_OF_REST = SB_DYNAMICS_OF_DEFLECTION + SB_DYNAMICS_CONTACTS,
+  SB_DYNAMICS_RATES = SB_DYNAMICS_OF_REST + SB_DYNAMICS_CONTACTS
+};
+typedef struct {
+  double middle;                  // of the cycle [s]; 0: not known
+  double rate[SB_DYNAMICS_RATES]; // [W], [1], [m/s2], [m/s], [1]
+} SbDynamicsRates;
+
+// Cycles of elastic contacts that change slowly, and groups of them that are passed over (private).
+typedef struct {
+  bool on;                  // groups are passed over until something else happens
+  SbDynamicsBreak mark;     // where the present cycle began
+  long since, after;        // break-aways since then, and the number after which `mark` is replaced
+  long slips;               // break-aways of the last cycle
+  long window;              // segments of a cycle at least; shorter ones are taken together
+  int waited;               // cycles since the last group; negative: cycles to step through
+  double span;              // largest duration of the next group [s]
+  SbDynamicsRates cycle;    // of the last cycle
+  SbDynamicsRates known[2]; // [1] of the cycle before the last group, [0] of one before that cycle
+  bool open;                // the energies of the last group are extrapolated so far
+  double from, to;          // the last group [s]
+  double taken[SB_DYNAMICS_TERMS]; // its energies [J]
+  double stored;                   // by how much its ends differ in stored and kinetic energy [J]
+} SbDynamicsEnvelope;
+
 // Working state, in memory of the caller; owns nothing, so it need not be freed.
 // Read `counters` and `force_peak`; all other fields are private.
 typedef struct {
@@ -291,6 +322,7 @@ typedef struct {
   double least_stretch; // smallest |platen - x| at events since `mark` [m]
   long platens, others; // see SbDynamicsBreak
   SbDynamicsGroup group;
+  SbDynamicsEnvelope envelope;
   double asked;                       // target of sb_dynamics_advance() [s]
   double stored_start, kinetic_start; // [J]
   bool ready, linear, held;           // the segment is known; has a closed form; the stem is fixed

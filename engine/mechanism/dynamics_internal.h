@@ -1,7 +1,7 @@
 // Shared by the files of dynamics.h: dynamics_check.c (input), dynamics_forces.c (forces, energies,
 // event functions), dynamics_path.c (motion between events), dynamics_states.c (state and
 // energies there), dynamics.c (effects of events),
-// dynamics_repeat.c (stick-slip cycles). Private to engine/mechanism.
+// dynamics_repeat.c and dynamics_envelope.c (stick-slip cycles). Private to engine/mechanism.
 //
 // sb_dynamics_advance() works segment by segment: sb_motion_find_path() finds the motion from s->t
 // and s->at, the end s->t_end of the segment and the event s->event. The functions that take a time
@@ -178,6 +178,35 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 // Called after `event`, a break-away at the start of the segment. If cycles of stick-slip repeat,
 // advances by a number of full cycles; if they change slowly, by a group of cycles.
 void sb_motion_repeat(SbDynamics *s, int event);
+
+// What is ahead of cycles of stick-slip until something else happens.
+typedef struct {
+  double time, way; // s, m
+} SbMotionAhead;
+
+// Returns what is ahead of a stem that goes in `direction` (+1 or -1) by cycles in which it is
+// nowhere farther from its mean than the drive's spring is long. `time` is not limited by the
+// target of sb_dynamics_advance().
+SbMotionAhead sb_motion_ahead(const SbDynamics *s, int direction);
+
+// Returns whether since `was` there were only slips, sticks, bands of speed and contacts lost and
+// made by the platen, and the machine pushes.
+bool sb_motion_undisturbed(const SbDynamics *s, const SbDynamicsBreak *was);
+
+// Advances time to `until` [s], and the stem to x [m], over a number of cycles; all else except
+// energies remains.
+void sb_motion_pass(SbDynamics *s, double until, double x, double cycles);
+
+// Sets s->broke to the present state just after `event`, a break-away.
+void sb_motion_note(SbDynamics *s, int event);
+
+// Returns the integral from a to b of the parabola through three points.
+double sb_motion_under_parabola(const double x[3], const double y[3], double a, double b);
+
+// Called after a break-away that ended no cycle of sb_motion_repeat(), with s->broke: if cycles of
+// elastic contacts change slowly and are too many to be stepped through, advances by a group of
+// them.
+void sb_motion_envelope(SbDynamics *s);
 
 // Writes to *z the state at `tau` [s] after the start of the segment, 0 <= tau <= t_end - t, after
 // sb_motion_find_path().

@@ -19,8 +19,8 @@
 // a group differs from that of stepping, which no tolerance would determine after 1e5 cycles
 // either.
 //
-// Neither passes a requested time, an edge, a stop or the drive's next piece. Not available: slow
-// changes with elastic contacts.
+// Neither passes a requested time, an edge, a stop or the drive's next piece. Slow changes with
+// elastic contacts: dynamics_envelope.c.
 #include "engine/mechanism/dynamics_internal.h"
 
 #include <math.h>
@@ -38,14 +38,7 @@ static const long patience = 100;
 // leaves the balance of energies closed.
 static const double group_bend = 10.0, group_bend_most = 5e-7;
 
-// What is ahead until something else happens.
-typedef struct {
-  double time, way; // s, m
-} Ahead;
-
-// Returns whether since `was` there were only slips, sticks, bands of speed and contacts lost and
-// made by the platen, and the machine pushes.
-static bool undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
+bool sb_motion_undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsModel *m = s->model;
   const SbDynamicsBreak *now = &s->broke;
   bool settled = m->extra_rate == NULL || (s->loads.settled && was->at.extra == now->at.extra);
@@ -60,7 +53,7 @@ static bool undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
 // A cycle from `was` to now.
 static bool comparable(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsBreak *now = &s->broke;
-  return undisturbed(s, was) && was->event == now->event && now->t > was->t &&
+  return sb_motion_undisturbed(s, was) && was->event == now->event && now->t > was->t &&
          now->at.x != was->at.x;
 }
 
@@ -90,11 +83,9 @@ static bool equal(const SbDynamics *s, const SbDynamicsBreak *a, const SbDynamic
   return same;
 }
 
-// For a stem that goes in a direction by cycles in which it is nowhere farther from its mean than
-// the drive's spring is long.
-static Ahead look_ahead(const SbDynamics *s, int direction) {
+SbMotionAhead sb_motion_ahead(const SbDynamics *s, int direction) {
   const SbDynamicsModel *m = s->model;
-  Ahead ahead = {fmin(s->asked, s->piece.until) - s->t, INFINITY};
+  SbMotionAhead ahead = {s->piece.until - s->t, INFINITY};
   if (direction > 0 && s->region < m->edges) {
     ahead.way = m->edge[s->region] - s->at.x;
   } else if (direction < 0 && s->region > 0) {
@@ -109,8 +100,7 @@ static Ahead look_ahead(const SbDynamics *s, int direction) {
   return ahead;
 }
 
-// Advances time to `until`, and the stem to x; all else except energies keeps its state.
-static void pass(SbDynamics *s, double until, double x, double cycles) {
+void sb_motion_pass(SbDynamics *s, double until, double x, double cycles) {
   const double before = s->t;
   s->t = until;
   s->at.x = x;
@@ -125,7 +115,7 @@ static void pass(SbDynamics *s, double until, double x, double cycles) {
   s->counters.repeated += (long)fmin(cycles, 1e15);
 }
 
-static void note(SbDynamics *s, int event) {
+void sb_motion_note(SbDynamics *s, int event) {
   SbDynamicsBreak *b = &s->broke;
   *b = (SbDynamicsBreak){.event = event,
                          .region = s->region,
@@ -148,8 +138,9 @@ static void note(SbDynamics *s, int event) {
 static bool pass_equal(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   const double period = s->t - was->t, step = s->at.x - was->at.x;
   const double longer = s->broke.stretch - was->stretch; // by the return spring, in each cycle
-  const Ahead ahead = look_ahead(s, step > 0.0 ? 1 : -1);
-  double times = fmin(ahead.time / period, ahead.way / fabs(step));
+  const SbMotionAhead ahead = sb_motion_ahead(s, step > 0.0 ? 1 : -1);
+  const double time = fmin(ahead.time, s->asked - s->t);
+  double times = fmin(time / period, ahead.way / fabs(step));
   if (drift(s) > 0.0 && step < 0.0 && !s->model->drive_bonded) {
     // No further than the machine surely presses.
     times = fmin(times, 0.5 * s->least_stretch / (drift(s) * -step));
@@ -168,13 +159,12 @@ static bool pass_equal(SbDynamics *s, const SbDynamicsBreak *was, int event) {
     s->energy.drive += 0.5 * (times + 1.0) * s->wall[SB_DYNAMICS_PLATEN].stiffness * longer * go;
   }
   s->energy.stop = stop;
-  pass(s, until, s->at.x + go / (1.0 + drift(s)), times);
-  note(s, event);
+  sb_motion_pass(s, until, s->at.x + go / (1.0 + drift(s)), times);
+  sb_motion_note(s, event);
   return true;
 }
 
-// The integral from a to b of the parabola through three points.
-static double under_parabola(const double x[3], const double y[3], double a, double b) {
+double sb_motion_under_parabola(const double x[3], const double y[3], double a, double b) {
   const double first = (y[1] - y[0]) / (x[1] - x[0]);
   const double second = ((y[2] - y[1]) / (x[2] - x[1]) - first) / (x[2] - x[0]);
   // From the middle, so that no digits are lost.
@@ -189,7 +179,7 @@ static void close_group(SbDynamics *s, double middle, const double *power) {
   const double x[3] = {g->middle[0], g->middle[1], middle};
   for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
     const double y[3] = {g->power[0][k], g->power[1][k], power[k]};
-    s->energy.term[k] += under_parabola(x, y, g->from, g->to) - g->taken[k];
+    s->energy.term[k] += sb_motion_under_parabola(x, y, g->from, g->to) - g->taken[k];
   }
 }
 
@@ -291,9 +281,10 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   }
   const double tolerance = s->model->tolerance > 0.0 ? s->model->tolerance : 1e-9;
   const double bound = fmin(group_bend * tolerance, group_bend_most);
-  const Ahead ahead = look_ahead(s, direction);
+  const SbMotionAhead ahead = sb_motion_ahead(s, direction);
+  const double time = fmin(ahead.time, s->asked - s->t);
   double span = fmax(4.0 * g->span, 2.0 * worth * period);
-  span = fmin(span, fmin(ahead.time, ahead.way / speed) - worth * period); // time to close it
+  span = fmin(span, fmin(time, ahead.way / speed) - worth * period); // time to close it
   const double room = ahead.way - worth * period * speed;
   while (span >= worth * period &&
          (way_to(s, s->t + span, direction) > room || bend(s, s->t + span, direction) > bound)) {
@@ -322,15 +313,15 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
     g->span = span;
     g->open = true;
     s->counters.grouped += (long)fmin(span / period, 1e15);
-    pass(s, until, x, span / period);
-    note(s, event);
+    sb_motion_pass(s, until, x, span / period);
+    sb_motion_note(s, event);
   }
 }
 
 void sb_motion_repeat(SbDynamics *s, int event) {
   const SbDynamicsModel *m = s->model;
   const SbDynamicsBreak was = s->broke;
-  note(s, event);
+  sb_motion_note(s, event);
   bool rigid_ones = event < EVENT_CONTACT_UP;
   const bool steady = s->loads.constant && !s->piece.curved;
   if (steady && comparable(s, &s->mark) && equal(s, &s->broke, &s->mark)) {
@@ -341,7 +332,7 @@ void sb_motion_repeat(SbDynamics *s, int event) {
     }
     return;
   }
-  if (!undisturbed(s, &was)) {
+  if (!sb_motion_undisturbed(s, &was)) {
     s->mark_after = 0;
     s->group = (SbDynamicsGroup){0};
   }
@@ -358,5 +349,7 @@ void sb_motion_repeat(SbDynamics *s, int event) {
   const long slips = s->broke.events - was.events - (s->broke.platens - was.platens);
   if (rigid_ones && !patient && comparable(s, &was) && slips == 2) {
     pass_group(s, &was, event);
+  } else if (!rigid_ones && !steady) {
+    sb_motion_envelope(s);
   }
 }

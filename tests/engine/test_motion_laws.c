@@ -208,6 +208,82 @@ static void test_bands(void) {
   }
 }
 
+// Two contacts, the second of which ends: friction there falls along the way.
+static double end_share(size_t i, double x) {
+  return i == 0 ? 1.0 : exp(-x / 1e-3);
+}
+
+static void ending_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
+                         void *user) {
+  for (size_t i = 0; i < 2; i++) {
+    loads->level[i] = 100.0 * end_share(i, x);
+  }
+}
+
+// Friction falls by three tenths up to 5 mm/s.
+static void falling_band(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
+                         const double *extra, void *user) {
+  const double fall = 30.0, end = 5e-3;
+  const bool slow = speed < end;
+  band->low = slow ? 0.0 : end;
+  band->high = slow ? end : INFINITY;
+  for (size_t i = 0; i < 2; i++) {
+    band->slope[i] = slow ? -fall / end * end_share(i, x) : 0.0;
+    band->rise[i] = slow ? 0.0 : -fall * end_share(i, x);
+  }
+}
+
+// Elastic contacts on a very stiff machine vibrate, by cycles that change with the place. Where
+// they are too many to be stepped through they are followed by groups, and go as stepping goes
+// (asked for too often to skip any).
+static void test_groups(void) {
+  enum { ASKS = 4000 };
+  const SbDynamicsContact elastic = {.static_ratio = 1.0,
+                                     .dwell_gain = 0.05,
+                                     .dwell_time = 0.3,
+                                     .stiffness = 8e5,
+                                     .damping = 50.0};
+  const double until = 0.13;
+  SbDynamicsModel m = {.mass = 1.7e-3,
+                       .spring_preload = 2000.0,
+                       .contacts = 2,
+                       .contact = {elastic, elastic},
+                       .loads = ending_loads,
+                       .band = falling_band,
+                       .drive = ramp(0.0, 1.0, 1.2e-3),
+                       .drive_stiffness = 7.5e9,
+                       .drive_damping = 5e3,
+                       .tolerance = 1e-8};
+  SbDynamics once, often;
+  SbDynamicsSample a, b;
+  SbDynamicsEnergy e, f;
+  start(&once, &m);
+  advance(&once, until, &a, &e);
+  start(&often, &m);
+  for (int k = 1; k <= ASKS; k++) {
+    advance(&often, until * k / ASKS, &b, &f);
+  }
+  g_test_message(
+      "%ld of %ld segments, %ld slips in groups; place %.1e m, deflections %.1e and %.1e m "
+      "apart; drive %.1e, friction %.1e, seal %.1e off; closure %.1e",
+      once.counters.segments, often.counters.segments, once.counters.grouped,
+      fabs(a.position - b.position), fabs(a.deflection[0] - b.deflection[0]),
+      fabs(a.deflection[1] - b.deflection[1]), fabs(e.drive / f.drive - 1.0),
+      fabs(e.friction / f.friction - 1.0), fabs(e.seal / f.seal - 1.0), e.closure);
+  g_assert_cmpint(often.counters.grouped, ==, 0);
+  g_assert_cmpint(once.counters.grouped, >, 100);
+  g_assert_cmpint(4 * once.counters.segments, <, 3 * often.counters.segments);
+  // The phase in the cycle is free, and a cycle takes 50 us; contacts slide from 0.104 s on.
+  const double cycle = 1e-4, slides = until - 0.104;
+  ASSERT_NEAR(a.position, b.position, 1.2e-3 * cycle);
+  ASSERT_NEAR(a.deflection[0], b.deflection[0], 1.2e-3 * cycle);
+  ASSERT_NEAR(a.deflection[1], b.deflection[1], 1.2e-3 * cycle);
+  ASSERT_NEAR(e.drive / f.drive, 1.0, cycle / until);
+  ASSERT_NEAR(e.friction / f.friction, 1.0, cycle / slides);
+  ASSERT_NEAR(e.seal / f.seal, 1.0, cycle / slides);
+  g_assert_cmpfloat(e.closure, <, 2e-7);
+}
+
 // Friction that differs with the direction: a stem pushed to and fro against it slows down as each
 // way says.
 static void back_loads(SbDynamicsLoads *loads, double x, size_t region, const double *extra,
@@ -577,6 +653,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/motion/laws/presliding", test_presliding);
   g_test_add_func("/motion/laws/stribeck", test_stribeck);
   g_test_add_func("/motion/laws/bands", test_bands);
+  g_test_add_func("/motion/laws/groups", test_groups);
   g_test_add_func("/motion/laws/back", test_back);
   g_test_add_func("/motion/laws/sinusoid", test_sinusoid);
   g_test_add_func("/motion/laws/shaking", test_shaking);

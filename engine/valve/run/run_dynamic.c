@@ -164,20 +164,20 @@ static SbStatus find_state_errors(SbRun *run, const SbRecorder *same, double tol
 // fine motion. Half of the difference is reported, three times that error, and at least the
 // tolerance: the coarse motion may be accurate by chance. If it takes as many steps its errors are
 // those of the fine one, and a motion at a tenth of the tolerance gives them: twice the difference.
-// *coarse is the motion at the coarse tolerance.
-static SbStatus estimate_error(SbRecorder *coarse, const SbRecorder *fine, double tolerance,
+// others[0] is the motion at the coarse tolerance; others[1] is work memory.
+static SbStatus estimate_error(SbRecorder others[2], const SbRecorder *fine, double tolerance,
                                double *force, double *work, const SbRunHooks *hooks,
                                SbReport *report) {
   SbRun *run = fine->run;
-  SbRecorder finer;
+  SbRecorder *coarse = &others[0], *finer = &others[1];
   const SbRecorder *other = coarse;
   const double peak = fine->force_peak;
   SbStatus status = sb_run_record(coarse, run, false, coarse_of(tolerance), hooks, report);
   double share = 0.5 * fmax(1, tolerance * 10 / coarse_of(tolerance));
   if (status == SB_OK && coarse->motion.counters.steps >= fine->motion.counters.steps &&
       tolerance > 10 * least_tolerance) {
-    status = sb_run_record(&finer, run, false, 0.1 * tolerance, hooks, report);
-    other = &finer;
+    status = sb_run_record(finer, run, false, 0.1 * tolerance, hooks, report);
+    other = finer;
     share = 2;
   }
   if (status != SB_OK) {
@@ -341,12 +341,15 @@ static SbStatus find_errors(double *force, double *work, const SbRecorder *r, do
                             const SbRunHooks *hooks, SbReport *report) {
   SbRun *run = r->run;
   SbStatus status = SB_OK;
-  SbRecorder coarse;
+  SbRecorder *others = malloc(2 * sizeof *others);
+  if (others == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "out of memory for the motions of the error estimates");
+  }
   const SbRecorder *same = r; // a closed form does not depend on the tolerance
   if (r->motion.counters.steps > 0) {
     SbReport own = {0};
     SbWork part, *whole = begin_part(run, &part);
-    SbStatus estimate = estimate_error(&coarse, r, tolerance, force, work, hooks, &own);
+    SbStatus estimate = estimate_error(others, r, tolerance, force, work, hooks, &own);
     end_part(run, whole, &part);
     if (estimate == SB_ERROR_NOT_CONVERGED) {
       // The motion itself is valid.
@@ -355,7 +358,7 @@ static SbStatus find_errors(double *force, double *work, const SbRecorder *r, do
     } else if (estimate != SB_OK) {
       status = sb_fail(report, estimate, "%s", own.text);
     } else {
-      same = &coarse;
+      same = &others[0];
     }
   }
   if (status == SB_OK) {
@@ -363,6 +366,7 @@ static SbStatus find_errors(double *force, double *work, const SbRecorder *r, do
     status = find_state_errors(run, same, tolerance, hooks, report);
     end_part(run, whole, &part);
   }
+  free(others);
   return status;
 }
 
