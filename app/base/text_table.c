@@ -93,8 +93,8 @@ static void take_lines(Sample *sample, const SbTextTableBytes *bytes, size_t fro
   if (from > 0) {
     (void)sb_text_table_next(&lines); // the rest of a line
   }
-  const size_t end = sb_text_table_lines_place(&lines) + SAMPLE_BYTES;
-  for (size_t i = 0; i < lines_max && sb_text_table_lines_place(&lines) < end &&
+  const size_t start = lines.left;
+  for (size_t i = 0; i < lines_max && start - lines.left < SAMPLE_BYTES &&
                      (line = sb_text_table_next(&lines)) != NULL;
        i++) {
     g_ptr_array_add(sample->line, g_string_new_len(line->str, (gssize)MIN(line->len, LINE_BYTES)));

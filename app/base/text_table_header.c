@@ -20,19 +20,17 @@ const char *sb_text_table_unit(const char *text) {
   g_auto(GStrv) parts = g_strsplit(text, "\xce\xbc", -1); // the other letter that looks like a µ
   g_autofree char *plain = g_strstrip(g_strjoinv("\xc2\xb5", parts));
   g_autofree char *folded = g_utf8_strdown(plain, -1);
+  g_autofree char *entry = g_strconcat("|", folded, "|", NULL);
+  const bool word = *folded != '\0' && strchr(folded, '|') == NULL;
+  const char *found = NULL;
   for (size_t i = 0; i < G_N_ELEMENTS(known_units); i++) {
+    g_autofree char *all = g_utf8_strdown(known_units[i].all, -1);
     if (strcmp(known_units[i].unit, plain) == 0) {
       return known_units[i].unit;
     }
+    found = found == NULL && word && strstr(all, entry) != NULL ? known_units[i].unit : found;
   }
-  g_autofree char *entry = g_strconcat("|", folded, "|", NULL);
-  for (size_t i = 0; i < G_N_ELEMENTS(known_units) && *folded != '\0'; i++) {
-    g_autofree char *all = g_utf8_strdown(known_units[i].all, -1);
-    if (strchr(folded, '|') == NULL && strstr(all, entry) != NULL) {
-      return known_units[i].unit;
-    }
-  }
-  return NULL;
+  return found;
 }
 
 // Returns a unit without brackets, in its usual spelling where that is known. Owned by the caller.

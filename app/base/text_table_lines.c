@@ -24,10 +24,6 @@ void sb_text_table_lines_clear(SbTextTableLines *lines) {
   g_string_free(lines->line, TRUE);
 }
 
-size_t sb_text_table_lines_place(const SbTextTableLines *lines) {
-  return lines->bytes->length - lines->left;
-}
-
 // The next byte, or unit of UTF-16; EOF at the end, or with bytes left where they cannot be read.
 static int next_unit(SbTextTableLines *lines) {
   FILE *stream = lines->bytes->stream;

@@ -36,9 +36,6 @@ void sb_text_table_lines_clear(SbTextTableLines *lines);
 // with `wrong` set if the file cannot be read.
 const GString *sb_text_table_next(SbTextTableLines *lines);
 
-// Returns the offset of the next line [bytes].
-size_t sb_text_table_lines_place(const SbTextTableLines *lines);
-
 // A cell; borrowed from its line, not terminated by 0.
 typedef struct {
   const char *text;

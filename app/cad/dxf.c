@@ -720,15 +720,11 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
 
 // Places model space and makes its bodies; NULL with an error.
 static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError **error) {
-  if (!read_file(drawing, error)) {
-    return NULL;
-  }
-  if (drawing->unit == NULL) {
-    sb_app_error_input(error, "states no unit ($INSUNITS)%s",
-                       choices->section ? "" : ": specify it with --unit");
-    return NULL;
-  }
-  if (!sb_unit_scale(&drawing->scale, drawing->unit, "m", "mm", error)) {
+  if (!read_file(drawing, error) ||
+      (drawing->unit == NULL &&
+       !sb_app_error_input(error, "states no unit ($INSUNITS)%s",
+                           choices->section ? "" : ": specify it with --unit")) ||
+      !sb_unit_scale(&drawing->scale, drawing->unit, "m", "mm", error)) {
     return NULL;
   }
   const Affine way = {drawing->scale, 0, 0, 0, drawing->scale, 0};

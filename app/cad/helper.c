@@ -135,6 +135,51 @@ static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
   return good;
 }
 
+// Writes the direction of an axis, and its point nearest to the centre or the centre of a ball to
+// `p`, from the last `count` right singular vectors (columns of v[6][6], d and m of a line each).
+// Returns `count`, or 0 if they are no axis.
+static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
+  int best = 6 - count;
+  double d[6][3], m[6][3], gram[3][3] = {{0}}, sum[3] = {0};
+  for (int j = 6 - count; j < 6; j++) {
+    double turned[3];
+    for (int k = 0; k < 3; k++) {
+      d[j][k] = v[6 * k + j];
+      m[j][k] = v[6 * (k + 3) + j];
+    }
+    cross(turned, d[j], m[j]);
+    for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
+      gram[k / 3][k % 3] += (k % 4 == 0) * dot(d[j], d[j]) - d[j][k / 3] * d[j][k % 3];
+    }
+    for (int k = 0; k < 3; k++) {
+      sum[k] += turned[k];
+    }
+    best = dot(d[j], d[j]) > dot(d[best], d[best]) ? j : best;
+  }
+  double across[3];
+  if (count == 3) {
+    double det[3];
+    cross(det, gram[0], gram[1]);
+    const double whole = dot(det, gram[2]);
+    for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
+      cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
+      p[k] = dot(across, sum) / whole;
+    }
+    count = whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
+  } else {
+    const double length = sqrt(dot(d[best], d[best]));
+    for (int k = 0; k < 3; k++) {
+      d[best][k] /= length;
+      m[best][k] /= length;
+    }
+    cross(p, d[best], m[best]);
+    memcpy(axis->direction, d[best], sizeof axis->direction);
+    // Without a rotation, an extruded face; with a pitch, a thread.
+    count = length > ZERO && (count == 2 || fabs(dot(d[best], m[best])) < ZERO) ? count : 0;
+  }
+  return count;
+}
+
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
 // the null space of this linear system (the line complex of the normals: H. Pottmann, J. Wallner,
 // Computational Line Geometry, Springer 2001, section 3.4): one dimension for a face of revolution,
@@ -175,44 +220,8 @@ static int axis_of(Axis *axis, int tag) {
   if (count == 0 || count > 3) {
     return 0;
   }
-  int best = 6 - count;
-  double d[6][3], m[6][3], gram[3][3] = {{0}}, sum[3] = {0};
-  for (int j = 6 - count; j < 6; j++) {
-    double turned[3];
-    for (int k = 0; k < 3; k++) {
-      d[j][k] = v[6 * k + j];
-      m[j][k] = v[6 * (k + 3) + j];
-    }
-    cross(turned, d[j], m[j]);
-    for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
-      gram[k / 3][k % 3] += (k % 4 == 0) * dot(d[j], d[j]) - d[j][k / 3] * d[j][k % 3];
-    }
-    for (int k = 0; k < 3; k++) {
-      sum[k] += turned[k];
-    }
-    best = dot(d[j], d[j]) > dot(d[best], d[best]) ? j : best;
-  }
-  double p[3], across[3];
-  if (count == 3) {
-    double det[3];
-    cross(det, gram[0], gram[1]);
-    const double whole = dot(det, gram[2]);
-    for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
-      cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
-      p[k] = dot(across, sum) / whole;
-    }
-    count = whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
-  } else {
-    const double length = sqrt(dot(d[best], d[best]));
-    for (int k = 0; k < 3; k++) {
-      d[best][k] /= length;
-      m[best][k] /= length;
-    }
-    cross(p, d[best], m[best]);
-    memcpy(axis->direction, d[best], sizeof axis->direction);
-    // Without a rotation, an extruded face; with a pitch, a thread.
-    count = length > ZERO && (count == 2 || fabs(dot(d[best], m[best])) < ZERO) ? count : 0;
-  }
+  double p[3];
+  count = axis_of_rows(axis, p, v, count);
   for (int k = 0; k < 3; k++) {
     axis->point[k] = centre[k] + size * p[k];
   }
@@ -445,7 +454,8 @@ static void print_body(int body, int number) {
   fflush(out);
 }
 
-int main(int argc, char **argv) {
+// Limits of memory, time and files.
+static void set_limits(void) {
   // A sanitizer maps more than any limit.
   if (!SB_SANITIZED) {
     setrlimit(RLIMIT_AS, &(struct rlimit){MEMORY_MAX, MEMORY_MAX});
@@ -458,6 +468,10 @@ int main(int argc, char **argv) {
   // It writes no files, whatever the library would like to keep.
   signal(SIGXFSZ, SIG_IGN);
   setrlimit(RLIMIT_FSIZE, &(struct rlimit){0, 0});
+}
+
+int main(int argc, char **argv) {
+  set_limits();
   if (argc != 9) {
     fprintf(stderr, "usage: sealbench-cad FILE.step ANGLE DX DY DZ PX PY PZ\n");
     return 1;

@@ -234,7 +234,7 @@ static void place(SbStl *stl, const double frame[3][3], const double *through) {
   for (gsize i = 0; i < stl->vertex_count; i++) {
     turn_point(stl->vertices + 3 * i, frame);
   }
-  sb_stl_extent(stl, low, high);
+  sb_stl_extent(stl->vertices, stl->vertex_count, low, high);
   if (through != NULL) {
     memcpy(to, through, sizeof to);
     turn_point(to, frame);
@@ -364,7 +364,7 @@ static char *name_of(const char *path) {
 // From the mesh in the file's own numbers.
 static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices, GError **error) {
   double low[3], high[3], scale = 0;
-  sb_stl_extent(stl, low, high);
+  sb_stl_extent(stl->vertices, stl->vertex_count, low, high);
   const double side = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
   const char *unit = choices->unit;
   if (unit != NULL ? !sb_unit_scale(&scale, unit, "m", "mm", error)

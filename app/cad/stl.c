@@ -64,7 +64,7 @@ static unsigned nearest(const Grid *grid, const double *vertices, unsigned count
   return best;
 }
 
-static void extent(const double *points, gsize count, double low[3], double high[3]) {
+void sb_stl_extent(const double *points, gsize count, double low[3], double high[3]) {
   for (int k = 0; k < 3; k++) {
     low[k] = INFINITY;
     high[k] = -INFINITY;
@@ -77,7 +77,7 @@ static void extent(const double *points, gsize count, double low[3], double high
 
 static double weld_tolerance(const double *corners, gsize count) {
   double diagonal = 0.0, largest = 0.0, low[3], high[3];
-  extent(corners, count, low, high);
+  sb_stl_extent(corners, count, low, high);
   for (int k = 0; k < 3; k++) {
     diagonal = hypot(diagonal, high[k] - low[k]);
     largest = fmax(largest, fmax(fabs(low[k]), fabs(high[k])));
@@ -265,10 +265,6 @@ gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **er
   g_autofree char *data =
       sb_reader_load_file(&length, path, path, length_max, SB_APP_ERROR_IO, error);
   return data != NULL && sb_stl_parse(out, data, length, unit, path, error);
-}
-
-void sb_stl_extent(const SbStl *stl, double low[3], double high[3]) {
-  extent(stl->vertices, stl->vertex_count, low, high);
 }
 
 void sb_stl_clear(SbStl *stl) {

@@ -509,6 +509,16 @@ static int render_file(SbCliFiles *files, const SbCliFile *file, void *data) {
   return code;
 }
 
+// Renders the files of the command line. Returns the exit code.
+static int render_files(Request *request, int argc, char **argv) {
+  g_auto(GStrv) settings = all_settings(request->options);
+  const SbCliFilesWork work = {settings, request->options->output, NULL, check_outputs, render_file,
+                               request};
+  const int code = sb_cli_files_run(argc, argv, &work);
+  g_free(request->name);
+  return code;
+}
+
 int sb_command_render(int argc, char **argv) {
   Options options = {0};
   const GOptionEntry entries[] = {
@@ -564,14 +574,8 @@ int sb_command_render(int argc, char **argv) {
       {0},
   };
   Request request = {.options = &options};
-  if (!sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) ||
-      !parse(&request, &options, argc - 1)) {
-    return SB_EXIT_INPUT;
-  }
-  g_auto(GStrv) settings = all_settings(&options);
-  const SbCliFilesWork work = {settings,      options.output, NULL,
-                               check_outputs, render_file,    &request};
-  const int code = sb_cli_files_run(argc, argv, &work);
-  g_free(request.name);
-  return code;
+  return sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
+                 parse(&request, &options, argc - 1)
+             ? render_files(&request, argc, argv)
+             : SB_EXIT_INPUT;
 }

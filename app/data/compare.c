@@ -7,12 +7,10 @@
 
 static void add(SbLoop *loop, int way, double displacement, double force) {
   size_t *count = &loop->count[way];
+  const double last = *count > 0 ? loop->displacement[way][*count - 1] : NAN;
   // Only on: where the stem sticks or jumps back, the loop has no one force.
-  if (*count > 0) {
-    const double last = loop->displacement[way][*count - 1];
-    if (!(way == 0 ? displacement > last : displacement < last)) {
-      return;
-    }
+  if (*count > 0 && !(way == 0 ? displacement > last : displacement < last)) {
+    return;
   }
   if (*count == loop->room[way]) {
     loop->room[way] = MAX(2 * loop->room[way], 512);

@@ -396,21 +396,18 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     }
   }
   const double sign = mean < 0 ? -1 : 1;
-  size_t turn = 0;
+  size_t peak = 0, first = 0;
   for (size_t i = 1; i < m->count; i++) {
-    turn = sign * m->force[i] > sign * m->force[turn] ? i : turn;
+    peak = sign * m->force[i] > sign * m->force[peak] ? i : peak;
   }
   // The first of several peaks that are all but as high.
-  for (size_t i = 0; i < turn; i++) {
-    if (sign * m->force[i] > 0.95 * sign * m->force[turn]) {
-      const double until = 1.1 * (m->time[i] - m->time[0]) + m->time[0];
-      size_t most = i;
-      for (size_t k = i; k < m->count && m->time[k] <= until; k++) {
-        most = sign * m->force[k] > sign * m->force[most] ? k : most;
-      }
-      turn = most;
-      break;
-    }
+  while (first < peak && !(sign * m->force[first] > 0.95 * sign * m->force[peak])) {
+    first++;
+  }
+  const double until = 1.1 * (m->time[first] - m->time[0]) + m->time[0];
+  size_t turn = first;
+  for (size_t i = first; i < m->count && m->time[i] <= until; i++) {
+    turn = sign * m->force[i] > sign * m->force[turn] ? i : turn;
   }
   const double turned = turn_time(m, sign, turn), end = 2 * turned - m->time[0];
   size_t count = turn;

@@ -302,11 +302,11 @@ static void settle_turns(SbMeasured *m) {
     SbMeasuredCycle *cycle = &g_array_index(m->cycle, SbMeasuredCycle, c);
     const double rest = 0.997 * m->displacement[cycle->turn];
     size_t most = cycle->turn;
-    for (size_t i = cycle->turn; i > cycle->begin && m->displacement[i] >= rest; i--) {
-      most = m->force[i] > m->force[most] ? i : most;
-    }
-    for (size_t i = cycle->turn; i < cycle->end && m->displacement[i] >= rest; i++) {
-      most = m->force[i] > m->force[most] ? i : most;
+    for (int step = -1; step <= 1; step += 2) {
+      for (size_t i = cycle->turn; i > cycle->begin && i < cycle->end && m->displacement[i] >= rest;
+           i += (size_t)step) {
+        most = m->force[i] > m->force[most] ? i : most;
+      }
     }
     cycle->turn = most;
   }

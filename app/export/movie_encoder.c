@@ -191,6 +191,25 @@ const char *sb_movie_missing(SbMovieFormat format) {
   return missing[format];
 }
 
+static SbStatus write_header(SbMovieEncoder *encoder, const SbMovieOptions *options,
+                             SbReport *report) {
+  if (options->bit_exact) {
+    encoder->format->flags |= AVFMT_FLAG_BITEXACT;
+  }
+  if (options->title != NULL) {
+    av_dict_set(&encoder->format->metadata, "title", options->title, 0);
+  }
+  // libavformat writes its own name as the encoder.
+  g_autofree char *identity = sb_identity_text();
+  av_dict_set(&encoder->format->metadata, "description", identity, 0);
+  AVDictionary *set = NULL;
+  add_options(&set, encoder->how->muxer_option, G_N_ELEMENTS(encoder->how->muxer_option));
+  const int code = avformat_write_header(encoder->format, &set);
+  av_dict_free(&set);
+  encoder->header = code >= 0;
+  return code < 0 ? fail(report, "the movie's header", code) : check_output(encoder, report);
+}
+
 SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
                                const SbMovieOptions *options, SbReport *report) {
   *out = NULL;
@@ -238,21 +257,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
     }
   }
   if (status == SB_OK) {
-    if (options->bit_exact) {
-      encoder->format->flags |= AVFMT_FLAG_BITEXACT;
-    }
-    if (options->title != NULL) {
-      av_dict_set(&encoder->format->metadata, "title", options->title, 0);
-    }
-    // libavformat writes its own name as the encoder.
-    g_autofree char *identity = sb_identity_text();
-    av_dict_set(&encoder->format->metadata, "description", identity, 0);
-    AVDictionary *set = NULL;
-    add_options(&set, encoder->how->muxer_option, G_N_ELEMENTS(encoder->how->muxer_option));
-    code = avformat_write_header(encoder->format, &set);
-    av_dict_free(&set);
-    encoder->header = code >= 0;
-    status = code < 0 ? fail(report, "the movie's header", code) : check_output(encoder, report);
+    status = write_header(encoder, options, report);
   }
   if (status != SB_OK) {
     sb_movie_encoder_destroy(encoder);

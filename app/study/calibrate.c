@@ -168,6 +168,19 @@ static double added(const Curve *curve, size_t row, size_t coordinate) {
 // tangent for the fit, and central ones of full solves for the posterior (`full`), as the tangent
 // fixes the places where a ring sticks, which have a history
 // (engine/valve/answer/gradient_rings.c). A side that has no loop is replaced by the place itself.
+// Writes the residuals that a tangent predicts of the base itself; false where it has no run.
+static bool take_base(double *residual, Work *work, Curve *curve, const double *z) {
+  // What is predicted of the base itself: differences of like with like.
+  SbOverride override[2 * SB_VARY_MAX];
+  const size_t count = overrides_at(override, work, curve, z);
+  const bool good = run_at(work, curve, &curve->beside, curve->run, override, count);
+  if (work->status == SB_ERROR_NOT_CONVERGED) {
+    (void)sb_loop_take(&curve->loop, curve->run);
+  }
+  residuals_of(residual, curve, z);
+  return good;
+}
+
 static bool differentiate(void *data, double *jacobian, const double *z, const double *residual) {
   Work *work = data;
   const size_t n = work->coordinates;
@@ -181,14 +194,7 @@ static bool differentiate(void *data, double *jacobian, const double *z, const d
     double *side[2] = {g_new(double, rows + 1), g_new(double, rows + 1)};
     bool good = !work->rings || settle_run(work, curve, z);
     if (good && tangent) {
-      // What is predicted of the base itself: differences of like with like.
-      SbOverride override[2 * SB_VARY_MAX];
-      const size_t count = overrides_at(override, work, curve, z);
-      good = run_at(work, curve, &curve->beside, curve->run, override, count);
-      if (work->status == SB_ERROR_NOT_CONVERGED) {
-        (void)sb_loop_take(&curve->loop, curve->run);
-      }
-      residuals_of(side[0], curve, z);
+      good = take_base(side[0], work, curve, z);
     }
     for (size_t j = 0; j < n && good; j++) {
       for (size_t i = 0; i < rows && !depends(work, curve, j); i++) {
@@ -538,10 +544,8 @@ static void take_best(SbCalibration *out, Work *work, SbInference *found) {
       sb_calibrate_evaluate(work, found->residual, found->z) && compare_curves(out, work, found);
 }
 
-static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
-  const size_t n = work->coordinates, m = work->residuals;
-  uint8_t *group = g_new(uint8_t, m);
-  double *weight = g_new(double, m), start[SB_INFERENCE_COORDINATES] = {0};
+// Writes the group of noise and the weight of each residual, and the variates to start from.
+static void group_residuals(const Work *work, uint8_t *group, double *weight, double *start) {
   for (size_t c = 0; c < work->curves; c++) {
     const Curve *curve = &work->curve[c];
     for (size_t i = 0; i < curve->points; i++) {
@@ -558,10 +562,16 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
     const SbVary *vary = vary_of(work, work->vary[j]);
     start[j] = variate_of(&vary->distribution, sb_model_value(work->study->base, vary->id));
   }
+}
+
+static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
+  const size_t n = work->coordinates, m = work->residuals;
+  g_autofree uint8_t *group = g_new(uint8_t, m);
+  g_autofree double *weight = g_new(double, m);
+  double start[SB_INFERENCE_COORDINATES] = {0};
+  group_residuals(work, group, weight, start);
   SbStatus status = check_start(work, start, report);
   if (status != SB_OK) {
-    g_free(group);
-    g_free(weight);
     return status;
   }
   const SbInferenceAsked asked = {.coordinates = n,
@@ -582,8 +592,6 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
   work->expected = work->curves * (size_t)(each * (double)asked.samples + 20 * (double)n + 40);
   SbInference found;
   status = sb_inference(&found, &asked, report);
-  g_free(group);
-  g_free(weight);
   out->check_rms = NAN;
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     out->converged = found.converged;

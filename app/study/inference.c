@@ -440,6 +440,26 @@ static void adapt(double *covariance, const double *sample, size_t count, size_t
   }
 }
 
+// Returns a random number of the chi-square distribution with CHI_SQUARES degrees of freedom, for
+// step `i`.
+static double chi_square(uint64_t seed, size_t i) {
+  double chi = 0;
+  for (uint32_t k = 0; k < CHI_SQUARES; k++) {
+    chi += pow(sb_normal_quantile(sb_random(seed, i, DECIDE + 1 + k)), 2);
+  }
+  return chi;
+}
+
+// Replaces the root that steps are drawn by with that of the points' covariance; with `root` if it
+// has none.
+static void adapt_root(double *step_root, double *covariance, const double *root,
+                       const double *point, size_t count, size_t n) {
+  adapt(covariance, point, count, n);
+  if (!root_of(step_root, covariance, n)) {
+    memcpy(step_root, root, n * n * sizeof *step_root);
+  }
+}
+
 static bool sample_posterior(Work *work) {
   SbInference *out = work->out;
   const SbInferenceAsked *asked = work->asked;
@@ -461,10 +481,7 @@ static bool sample_posterior(Work *work) {
     const bool alone = i % 2 == 1;
     double ratio = 0;
     if (alone) {
-      double chi = 0;
-      for (uint32_t k = 0; k < CHI_SQUARES; k++) {
-        chi += pow(sb_normal_quantile(sb_random(asked->seed, i, DECIDE + 1 + k)), 2);
-      }
+      const double chi = chi_square(asked->seed, i);
       step_from(tried, out->z, sqrt(CHI_SQUARES / chi), root, variate, n);
       ratio = log_t(z, out->z, root, n) - log_t(tried, out->z, root, n);
     } else {
@@ -485,10 +502,7 @@ static bool sample_posterior(Work *work) {
       scale *= alone ? 1 : exp(((share > 0 ? share : 0) - 0.3) / sqrt(1 + 0.1 * (double)i));
       scale = fmin(fmax(scale, 1e-3), 10);
       if (i + 1 == warm) {
-        adapt(covariance, warmed + warm / 2 * n, warm - warm / 2, n);
-        if (!root_of(step_root, covariance, n)) {
-          memcpy(step_root, root, n * n * sizeof *step_root);
-        }
+        adapt_root(step_root, covariance, root, warmed + warm / 2 * n, warm - warm / 2, n);
       }
     } else {
       memcpy(out->sample + (i - warm) * n, z, n * sizeof *z);

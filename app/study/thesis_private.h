@@ -87,6 +87,10 @@ const char *sb_thesis_bound(bool *within, bool *about, const char *text);
 // Marks the samples of a grid that belong to the rows of a group [rows NAME].
 void sb_thesis_want(SbThesisWork *work, SbThesisGrid *grid, const char *group);
 
+// Computes the figures of all samples that expressions and rows require. Returns false with an
+// issue, or if the work was stopped.
+bool sb_thesis_answer_grids(SbThesisWork *work);
+
 // Returns the model of a sample, freed by sb_model_destroy(); NULL with an issue.
 SbModel *sb_thesis_model(SbThesisWork *work, const SbThesisGrid *grid, size_t sample);
 

@@ -155,6 +155,18 @@ static void chart_signal(SbCells *cells, SbCellRect rect, const SbCellTheme *the
   }
 }
 
+// Writes the force of the pressure at `place` on its line.
+static void label_pressure(SbPlot *plot, SbCellRect within, const SbCellTheme *theme, double place,
+                           double pressure) {
+  int column, row;
+  if (sb_plot_cell(plot, place, pressure, &column, &row)) {
+    char force[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
+    sb_figure_text(force, sb_figure_find("cycle.pressure_force_N"), pressure, 0);
+    g_snprintf(text, sizeof text, "pressure %s", force);
+    sb_plot_label(plot->cells, within, column, row, text, pen_of(theme, SB_ROLE_FLUID, 0));
+  }
+}
+
 void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
                    const SbChartData *data, unsigned flags) {
   if (!sb_device(data->run.model)->stem && data->run.trace != NULL) {
@@ -209,14 +221,9 @@ void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
   }
   draw_stages(&plot, within, theme, &data->run);
   label_least(&plot, within, theme, &data->run);
-  int column, row;
-  if (isfinite(pressure) && pressure != 0 && rect.height >= 10 &&
-      sb_plot_cell(&plot, layout.x.lo + 0.06 * (layout.x.hi - layout.x.lo), pressure, &column,
-                   &row)) {
-    char force[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
-    sb_figure_text(force, sb_figure_find("cycle.pressure_force_N"), pressure, 0);
-    g_snprintf(text, sizeof text, "pressure %s", force);
-    sb_plot_label(cells, within, column, row, text, pen_of(theme, SB_ROLE_FLUID, 0));
+  if (isfinite(pressure) && pressure != 0 && rect.height >= 10) {
+    label_pressure(&plot, within, theme, layout.x.lo + 0.06 * (layout.x.hi - layout.x.lo),
+                   pressure);
   }
 }
 

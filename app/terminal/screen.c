@@ -602,6 +602,32 @@ bool sb_screen_is_possible(GError **error) {
   return false;
 }
 
+static void build_terminal(SbScreen *screen) {
+  // With 24 bits a terminal takes xterm's sequences, whatever its name; libtickit knows the others
+  // by their terminfo, or takes them for an xterm where they have none.
+  const char *type = g_getenv("TERM");
+  const struct TickitTermBuilder builder = {
+      .termtype = screen->colors == SB_COLORS_TRUE || type == NULL ? "xterm" : type,
+      .open = TICKIT_NO_OPEN,
+      .output_func = on_output,
+      .output_func_user = screen,
+      .output_buffersize = 4096,
+  };
+  screen->term = tickit_term_build(&builder);
+  if (screen->term == NULL) {
+    screen->term = tickit_term_build(&(struct TickitTermBuilder){.termtype = "xterm",
+                                                                 .open = TICKIT_NO_OPEN,
+                                                                 .output_func = on_output,
+                                                                 .output_func_user = screen,
+                                                                 .output_buffersize = 4096});
+  }
+  tickit_term_set_utf8(screen->term, !screen->ascii);
+  const TickitTermCtl rgb = tickit_termctl_lookup("xterm.cap_rgb8");
+  if (rgb > 0 && screen->colors == SB_COLORS_TRUE) {
+    tickit_term_setctl_int(screen->term, rgb, 1);
+  }
+}
+
 SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *client,
                          GError **error) {
   const char *name = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) ? ttyname(STDIN_FILENO) : NULL;
@@ -629,29 +655,7 @@ SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *cli
   screen->cell_width = 8;
   screen->cell_height = 16;
   screen->cursor_x = -1;
-  // With 24 bits a terminal takes xterm's sequences, whatever its name; libtickit knows the others
-  // by their terminfo, or takes them for an xterm where they have none.
-  const char *type = g_getenv("TERM");
-  const struct TickitTermBuilder builder = {
-      .termtype = screen->colors == SB_COLORS_TRUE || type == NULL ? "xterm" : type,
-      .open = TICKIT_NO_OPEN,
-      .output_func = on_output,
-      .output_func_user = screen,
-      .output_buffersize = 4096,
-  };
-  screen->term = tickit_term_build(&builder);
-  if (screen->term == NULL) {
-    screen->term = tickit_term_build(&(struct TickitTermBuilder){.termtype = "xterm",
-                                                                 .open = TICKIT_NO_OPEN,
-                                                                 .output_func = on_output,
-                                                                 .output_func_user = screen,
-                                                                 .output_buffersize = 4096});
-  }
-  tickit_term_set_utf8(screen->term, !screen->ascii);
-  const TickitTermCtl rgb = tickit_termctl_lookup("xterm.cap_rgb8");
-  if (rgb > 0 && screen->colors == SB_COLORS_TRUE) {
-    tickit_term_setctl_int(screen->term, rgb, 1);
-  }
+  build_terminal(screen);
   screen->pen = tickit_pen_new();
   tickit_term_bind_event(screen->term, TICKIT_TERM_ON_KEY, 0, on_tickit_key, screen);
   tickit_term_bind_event(screen->term, TICKIT_TERM_ON_MOUSE, 0, on_tickit_mouse, screen);

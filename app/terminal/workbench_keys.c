@@ -363,38 +363,32 @@ static void press(SbBench *bench, const SbKey *key) {
 }
 
 // A key that means the same on every page; false: it does not.
-static bool common_key(SbBench *bench, const SbKey *key) {
-  if (key->kind == SB_KEY_TAB && bench->page == SB_PAGE_VALVE) {
-    bench->list = (SbListKind)((bench->list + 1) % SB_LIST_COUNT);
-    g_string_truncate(bench->search, 0);
-    sb_bench_list(bench);
+// Keys with Control.
+static bool control_key(SbBench *bench, unsigned character) {
+  switch (character) {
+  case 'c':
+    cancel(bench);
     return true;
-  }
-  if (key->kind != SB_KEY_CHARACTER) {
+  case 'l':
+    sb_screen_redraw(bench->screen);
+    return true;
+  case 'r':
+    undo(bench, true);
+    return true;
+  case 's':
+    save(bench, NULL);
+    return true;
+  case 'z':
+    sb_screen_suspend(bench->screen);
+    return true;
+  default:
     return false;
   }
-  if (key->control) {
-    switch (key->character) {
-    case 'c':
-      cancel(bench);
-      return true;
-    case 'l':
-      sb_screen_redraw(bench->screen);
-      return true;
-    case 'r':
-      undo(bench, true);
-      return true;
-    case 's':
-      save(bench, NULL);
-      return true;
-    case 'z':
-      sb_screen_suspend(bench->screen);
-      return true;
-    default:
-      return false;
-    }
-  }
-  switch (key->character) {
+}
+
+// Keys of the playhead.
+static bool time_key(SbBench *bench, unsigned character) {
+  switch (character) {
   case ' ':
     sb_session_play(bench->session, !sb_session_is_playing(bench->session));
     return true;
@@ -410,32 +404,14 @@ static bool common_key(SbBench *bench, const SbKey *key) {
   case '.':
     sb_session_step(bench->session, 1);
     return true;
-  case '1':
-  case '2':
-  case '3':
-  case '4':
-    choose_page(bench, (SbBenchPage)(key->character - '1'));
-    return true;
-  case '?':
-    open_popup(bench, SB_POPUP_HELP);
-    return true;
-  case 'c':
-    cancel(bench);
-    return true;
-  case 'e':
-    bench->goal = (bench->goal + 1) % SB_EFFECT_GOALS;
-    return true;
-  case 'f':
-    next_field(bench);
-    return true;
-  case 'i':
-    bench->zoom = bench->zoom == SB_SECTION_WHOLE        ? SB_SECTION_ZOOM_OUTER
-                  : bench->zoom == SB_SECTION_ZOOM_OUTER ? SB_SECTION_ZOOM_INNER
-                                                         : SB_SECTION_WHOLE;
-    return true;
-  case 'm':
-    switch_model(bench);
-    return true;
+  default:
+    return false;
+  }
+}
+
+// Keys of files, edits and saved designs.
+static bool file_key(SbBench *bench, unsigned character) {
+  switch (character) {
   case 'o':
     begin(bench, SB_INPUT_OPEN, "");
     return true;
@@ -461,18 +437,67 @@ static bool common_key(SbBench *bench, const SbKey *key) {
   case 'u':
     undo(bench, false);
     return true;
-  case 'v':
-    open_popup(bench, SB_POPUP_VERDICT);
-    return true;
-  case 'w':
-    open_popup(bench, SB_POPUP_WARNINGS);
-    return true;
   case 'x':
     begin(bench, SB_INPUT_EXPORT, "results.json");
     return true;
   default:
     return false;
   }
+}
+
+// Keys of pages and what they show.
+static bool view_key(SbBench *bench, unsigned character) {
+  switch (character) {
+  case '1':
+  case '2':
+  case '3':
+  case '4':
+    choose_page(bench, (SbBenchPage)(character - '1'));
+    return true;
+  case '?':
+    open_popup(bench, SB_POPUP_HELP);
+    return true;
+  case 'c':
+    cancel(bench);
+    return true;
+  case 'e':
+    bench->goal = (bench->goal + 1) % SB_EFFECT_GOALS;
+    return true;
+  case 'f':
+    next_field(bench);
+    return true;
+  case 'i':
+    bench->zoom = bench->zoom == SB_SECTION_WHOLE        ? SB_SECTION_ZOOM_OUTER
+                  : bench->zoom == SB_SECTION_ZOOM_OUTER ? SB_SECTION_ZOOM_INNER
+                                                         : SB_SECTION_WHOLE;
+    return true;
+  case 'm':
+    switch_model(bench);
+    return true;
+  case 'v':
+    open_popup(bench, SB_POPUP_VERDICT);
+    return true;
+  case 'w':
+    open_popup(bench, SB_POPUP_WARNINGS);
+    return true;
+  default:
+    return false;
+  }
+}
+
+static bool common_key(SbBench *bench, const SbKey *key) {
+  if (key->kind == SB_KEY_TAB && bench->page == SB_PAGE_VALVE) {
+    bench->list = (SbListKind)((bench->list + 1) % SB_LIST_COUNT);
+    g_string_truncate(bench->search, 0);
+    sb_bench_list(bench);
+    return true;
+  }
+  if (key->kind != SB_KEY_CHARACTER) {
+    return false;
+  }
+  return key->control ? control_key(bench, key->character)
+                      : time_key(bench, key->character) || file_key(bench, key->character) ||
+                            view_key(bench, key->character);
 }
 
 static void valve_key(SbBench *bench, const SbKey *key) {

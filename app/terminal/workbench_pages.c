@@ -178,6 +178,34 @@ static void draw_propellants(SbBench *bench, SbCellRect rect) {
 
 // Measured ---------------------------------------------------------------------------------------
 
+// Draws the table of forces at the stages from row `y`. Returns its last row.
+static int draw_stages(SbBench *bench, const SbComparison *measured, int y) {
+  SbCells *cells = &bench->cells;
+  const SbPen plain = sb_bench_pen(bench, SB_ROLE_INK, 0);
+  const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
+  static const char *const heads[] = {N_("stage"), N_("measured"), N_("model"), N_("difference")};
+  for (int i = 0; i < 4; i++) {
+    sb_cells_text_right(cells, 1 + (i > 0 ? 6 + 11 * (i - 1) : 0), y, i > 0 ? 11 : 6, _(heads[i]),
+                        quiet);
+  }
+  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
+    const SbMeasuredStage *stage = &measured->measured->stage[s];
+    const double has = stage->found ? stage->force : NAN, model = measured->model_force[s];
+    if (isnan(has) && isnan(model)) {
+      continue;
+    }
+    const double value[] = {has, model, has - model};
+    y++;
+    sb_cells_text(cells, 5, y, 2, sb_stage_name((SbStage)s), plain);
+    for (int i = 0; i < 3; i++) {
+      char text[SB_FORMAT_MAX];
+      sb_format_text(text, SB_QUANTITY_FORCE, value[i], 0);
+      sb_cells_text_right(cells, 7 + 11 * i, y, 11, text, plain);
+    }
+  }
+  return y;
+}
+
 static void draw_calibrate(SbBench *bench, SbCellRect rect) {
   SbCells *cells = &bench->cells;
   const SbChartData *data = sb_session_chart(bench->session);
@@ -198,27 +226,7 @@ static void draw_calibrate(SbBench *bench, SbCellRect rect) {
     return;
   }
   enum { TABLE = 40 };
-  static const char *const heads[] = {N_("stage"), N_("measured"), N_("model"), N_("difference")};
-  int y = rect.y + 2;
-  for (int i = 0; i < 4; i++) {
-    sb_cells_text_right(cells, 1 + (i > 0 ? 6 + 11 * (i - 1) : 0), y, i > 0 ? 11 : 6, _(heads[i]),
-                        quiet);
-  }
-  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
-    const SbMeasuredStage *stage = &measured->measured->stage[s];
-    const double has = stage->found ? stage->force : NAN, model = measured->model_force[s];
-    if (isnan(has) && isnan(model)) {
-      continue;
-    }
-    const double value[] = {has, model, has - model};
-    y++;
-    sb_cells_text(cells, 5, y, 2, sb_stage_name((SbStage)s), plain);
-    for (int i = 0; i < 3; i++) {
-      char text[SB_FORMAT_MAX];
-      sb_format_text(text, SB_QUANTITY_FORCE, value[i], 0);
-      sb_cells_text_right(cells, 7 + 11 * i, y, 11, text, plain);
-    }
-  }
+  const int y = draw_stages(bench, measured, rect.y + 2);
   char rms[SB_FORMAT_MAX], most[SB_FORMAT_MAX];
   sb_format_text(rms, SB_QUANTITY_FORCE, measured->rms, 0);
   sb_format_text(most, SB_QUANTITY_FORCE, measured->most, 0);

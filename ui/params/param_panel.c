@@ -379,6 +379,22 @@ static void sb_param_panel_class_init(SbParamPanelClass *class) {
   G_OBJECT_CLASS(class)->finalize = finalize;
 }
 
+// Adds the choice of the figure whose effects are shown.
+static void add_goals(SbParamPanel *panel) {
+  panel->goal = gtk_combo_box_text_new();
+  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(panel->goal), _("no effects"));
+  for (int i = 0; i < SB_EFFECT_GOALS; i++) {
+    g_autofree char *name = g_strdup_printf(_("effect on %s"), sb_effect_goal_name(i));
+    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(panel->goal), name);
+  }
+  gtk_combo_box_set_active(GTK_COMBO_BOX(panel->goal), 0);
+  sb_style_name(panel->goal, _("Effects"),
+                _("Effect of each main parameter on a figure, per tolerance or 5 %"));
+  g_object_set(panel->goal, "margin-start", 20, "margin-end", 20, "margin-bottom", 6, NULL);
+  g_signal_connect(panel->goal, "changed", G_CALLBACK(on_goal), panel);
+  gtk_box_pack_start(GTK_BOX(panel), panel->goal, FALSE, FALSE, 0);
+}
+
 static void sb_param_panel_init(SbParamPanel *panel) {
   panel->groups = g_array_new(FALSE, TRUE, sizeof(Group));
   sb_style_class(GTK_WIDGET(panel), "sb-panel");
@@ -411,18 +427,7 @@ static void sb_param_panel_init(SbParamPanel *panel) {
                               _("Values other than their defaults"));
   gtk_box_pack_start(GTK_BOX(panel), filters, FALSE, FALSE, 0);
 
-  panel->goal = gtk_combo_box_text_new();
-  gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(panel->goal), _("no effects"));
-  for (int i = 0; i < SB_EFFECT_GOALS; i++) {
-    g_autofree char *name = g_strdup_printf(_("effect on %s"), sb_effect_goal_name(i));
-    gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(panel->goal), name);
-  }
-  gtk_combo_box_set_active(GTK_COMBO_BOX(panel->goal), 0);
-  sb_style_name(panel->goal, _("Effects"),
-                _("Effect of each main parameter on a figure, per tolerance or 5 %"));
-  g_object_set(panel->goal, "margin-start", 20, "margin-end", 20, "margin-bottom", 6, NULL);
-  g_signal_connect(panel->goal, "changed", G_CALLBACK(on_goal), panel);
-  gtk_box_pack_start(GTK_BOX(panel), panel->goal, FALSE, FALSE, 0);
+  add_goals(panel);
 
   panel->list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 2);
   g_object_set(panel->list, "margin-start", 18, "margin-end", 16, "margin-bottom", 12, NULL);

@@ -455,6 +455,20 @@ static void fill(Dialog *dialog) {
   fill_formats(dialog);
 }
 
+static void connect_parts(Dialog *dialog) {
+  g_signal_connect(dialog->dialog, "response", G_CALLBACK(on_response), dialog);
+  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_destroy), dialog);
+  g_signal_connect(dialog->size, "changed", G_CALLBACK(on_size), dialog);
+  g_signal_connect(dialog->view, "changed", G_CALLBACK(on_view), dialog);
+  g_signal_connect(dialog->format, "changed", G_CALLBACK(on_format), dialog);
+  g_signal_connect(dialog->field_max, "output", G_CALLBACK(on_range_output), NULL);
+  g_signal_connect(dialog->field_max, "input", G_CALLBACK(on_range_input), NULL);
+  g_signal_connect(dialog->pace, "changed", G_CALLBACK(on_pace), dialog);
+  g_signal_connect(dialog->width, "value-changed", G_CALLBACK(on_number), dialog);
+  g_signal_connect(dialog->height, "value-changed", G_CALLBACK(on_number), dialog);
+  g_signal_connect(dialog->choose, "clicked", G_CALLBACK(on_choose), dialog);
+}
+
 void sb_export_dialog_open(GtkWindow *parent, SbSession *session) {
   Dialog *dialog = g_new0(Dialog, 1);
   dialog->session = g_object_ref(session);
@@ -506,17 +520,7 @@ void sb_export_dialog_open(GtkWindow *parent, SbSession *session) {
   }
   gtk_window_set_transient_for(GTK_WINDOW(dialog->dialog), parent);
   gtk_window_set_destroy_with_parent(GTK_WINDOW(dialog->dialog), TRUE);
-  g_signal_connect(dialog->dialog, "response", G_CALLBACK(on_response), dialog);
-  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_destroy), dialog);
-  g_signal_connect(dialog->size, "changed", G_CALLBACK(on_size), dialog);
-  g_signal_connect(dialog->view, "changed", G_CALLBACK(on_view), dialog);
-  g_signal_connect(dialog->format, "changed", G_CALLBACK(on_format), dialog);
-  g_signal_connect(dialog->field_max, "output", G_CALLBACK(on_range_output), NULL);
-  g_signal_connect(dialog->field_max, "input", G_CALLBACK(on_range_input), NULL);
-  g_signal_connect(dialog->pace, "changed", G_CALLBACK(on_pace), dialog);
-  g_signal_connect(dialog->width, "value-changed", G_CALLBACK(on_number), dialog);
-  g_signal_connect(dialog->height, "value-changed", G_CALLBACK(on_number), dialog);
-  g_signal_connect(dialog->choose, "clicked", G_CALLBACK(on_choose), dialog);
+  connect_parts(dialog);
   fill(dialog);
   gtk_window_present(GTK_WINDOW(dialog->dialog));
 }

@@ -95,13 +95,36 @@ static gboolean show_disk(Strip *strip) {
 
 // What is wrong with the values or the run and the one button that mends it, or else what the run
 // found.
+// Names a value that is out of range, inconsistent or not readable, and offers the last good one.
+static void show_wrong(Strip *strip, SbParamId wrong) {
+  SbSession *session = strip->session;
+  int differs = -1;
+  double value = 0;
+  const SbParam *param = sb_param(wrong);
+  double old = sb_document_value(sb_session_document(session), wrong);
+  if (sb_session_is_stale(session, &differs, &value) && differs == (int)wrong) {
+    old = value;
+  }
+  g_autofree char *shown = sb_param_format(wrong, old);
+  g_autofree char *label = sb_translation_inside(param->label);
+  const char *what = sb_session_rejected(session, wrong) == NULL
+                         ? _("is inconsistent with the other values")
+                     : sb_session_is_out_of_range(session, wrong) ? _("is out of range")
+                                                                  : _("cannot be read");
+  g_autofree char *text = g_strdup_printf(sb_session_run(session) != NULL
+                                              ? _("%s %s. Pictures show the last good run, %s %s.")
+                                              : _("%s %s. Nothing has run yet; %s %s would do."),
+                                          sb_translation(param->label), what, label, shown);
+  g_autofree char *button = g_strdup_printf(_("Set %s"), shown);
+  strip->id = (int)wrong;
+  strip->value = old;
+  show(strip, "warn", text, button);
+}
+
 static void refresh(Strip *strip) {
   SbSession *session = strip->session;
   const char *failure = sb_session_failure(session);
-  const SbRun *run = sb_session_run(session);
   int wrong = sb_session_first_error(session);
-  int differs = -1;
-  double value = 0;
   g_autofree char *former = sb_session_former_text(session);
   strip->id = -1;
   const gboolean awaits = wrong < 0 && failure == NULL && sb_session_awaits(session);
@@ -114,26 +137,7 @@ static void refresh(Strip *strip) {
   if (sb_session_is_faulty(session)) {
     show(strip, "error", failure, NULL);
   } else if (wrong >= 0) {
-    const SbParam *param = sb_param((SbParamId)wrong);
-    double old = sb_document_value(sb_session_document(session), (SbParamId)wrong);
-    if (sb_session_is_stale(session, &differs, &value) && differs == wrong) {
-      old = value;
-    }
-    g_autofree char *shown = sb_param_format((SbParamId)wrong, old);
-    g_autofree char *label = sb_translation_inside(param->label);
-    const char *what = sb_session_rejected(session, (SbParamId)wrong) == NULL
-                           ? _("is inconsistent with the other values")
-                       : sb_session_is_out_of_range(session, (SbParamId)wrong)
-                           ? _("is out of range")
-                           : _("cannot be read");
-    g_autofree char *text =
-        g_strdup_printf(run != NULL ? _("%s %s. Pictures show the last good run, %s %s.")
-                                    : _("%s %s. Nothing has run yet; %s %s would do."),
-                        sb_translation(param->label), what, label, shown);
-    g_autofree char *button = g_strdup_printf(_("Set %s"), shown);
-    strip->id = wrong;
-    strip->value = old;
-    show(strip, "warn", text, button);
+    show_wrong(strip, (SbParamId)wrong);
   } else if (failure != NULL) {
     g_autofree char *text = former != NULL
                                 ? g_strdup_printf(_("%s Pictures show the %s."), failure, former)

@@ -104,6 +104,25 @@ static char *running_text(SbSession *session) {
                          100 * sb_session_progress(session));
 }
 
+// Shows the state of the run; NULL for each that it does not have.
+static void show_run_state(SbWindow *window, const char *text, const char *style,
+                           const char *icon) {
+  GtkWidget *parts[] = {window->run_state_icon, window->run_state_label};
+  for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
+    GtkStyleContext *context = gtk_widget_get_style_context(parts[i]);
+    gtk_style_context_remove_class(context, "sb-warn");
+    gtk_style_context_remove_class(context, "sb-error");
+    if (style != NULL) {
+      gtk_style_context_add_class(context, style);
+    }
+  }
+  gtk_widget_set_visible(window->run_state_icon, icon != NULL);
+  if (icon != NULL) {
+    gtk_image_set_from_icon_name(GTK_IMAGE(window->run_state_icon), icon, GTK_ICON_SIZE_MENU);
+  }
+  gtk_label_set_text(GTK_LABEL(window->run_state_label), text != NULL ? text : "");
+}
+
 static void refresh_run_state(SbWindow *window) {
   SbSession *session = window->session;
   SbSessionState state = sb_session_state(session);
@@ -142,20 +161,7 @@ static void refresh_run_state(SbWindow *window) {
     style = "sb-warn";
     icon = "dialog-warning-symbolic";
   }
-  GtkWidget *parts[] = {window->run_state_icon, window->run_state_label};
-  for (guint i = 0; i < G_N_ELEMENTS(parts); i++) {
-    GtkStyleContext *context = gtk_widget_get_style_context(parts[i]);
-    gtk_style_context_remove_class(context, "sb-warn");
-    gtk_style_context_remove_class(context, "sb-error");
-    if (style != NULL) {
-      gtk_style_context_add_class(context, style);
-    }
-  }
-  gtk_widget_set_visible(window->run_state_icon, icon != NULL);
-  if (icon != NULL) {
-    gtk_image_set_from_icon_name(GTK_IMAGE(window->run_state_icon), icon, GTK_ICON_SIZE_MENU);
-  }
-  gtk_label_set_text(GTK_LABEL(window->run_state_label), text != NULL ? text : "");
+  show_run_state(window, text, style, icon);
   gtk_widget_set_visible(window->run_progress, running);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(window->run_progress),
                                 running ? sb_session_progress(session) : 0);
@@ -495,9 +501,7 @@ static void sb_window_class_init(SbWindowClass *class) {
 #undef CHILD
 }
 
-static void sb_window_init(SbWindow *window) {
-  window->session = sb_session_new();
-  gtk_widget_init_template(GTK_WIDGET(window));
+static void add_actions(SbWindow *window) {
   static const GActionEntry entries[] = {
       {.name = "open", .activate = on_open},
       {.name = "new", .activate = on_new},
@@ -549,26 +553,10 @@ static void sb_window_init(SbWindow *window) {
         g_property_action_new(panels[i].name, panels[i].panel, "visible");
     g_action_map_add_action(G_ACTION_MAP(window), G_ACTION(shown));
   }
+}
 
-  sb_style_window(GTK_WIDGET(window));
-  sb_toast_attach(GTK_WINDOW(window));
-  sb_review_attach(GTK_APPLICATION_WINDOW(window), window->session);
-
-  // The parts.
-  GtkWidget *charts = gtk_toggle_button_new();
-  gtk_container_add(GTK_CONTAINER(charts),
-                    gtk_image_new_from_icon_name("view-dual-symbolic", GTK_ICON_SIZE_BUTTON));
-  gtk_widget_show_all(charts);
-  gtk_widget_set_visible(charts, FALSE);
-  gtk_widget_set_tooltip_text(charts, _("Charts next to the section"));
-  sb_style_name(charts, _("Charts"), NULL);
-  gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), charts);
-  sb_paned_layout_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
-  window->model_switch = sb_model_switch_new(window->session);
-  gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), window->model_switch);
-  GtkWidget *verdicts = sb_verdict_strip_new(window->session);
-  gtk_box_pack_start(GTK_BOX(window->valve_page), verdicts, FALSE, FALSE, 0);
-  gtk_box_reorder_child(GTK_BOX(window->valve_page), verdicts, 0);
+// Fills the column of parameters, the one of the section and the bottom.
+static void fill_columns(SbWindow *window) {
   window->panel = sb_param_panel_new(window->session);
   const int filter = sb_preferences_int("parameters", SB_PARAM_FILTER_MAIN);
   sb_param_panel_set_filter(SB_PARAM_PANEL(window->panel),
@@ -593,6 +581,24 @@ static void sb_window_init(SbWindow *window) {
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_timeline_view_new(window->session), FALSE, FALSE,
                      0);
   gtk_box_pack_start(GTK_BOX(window->bottom), sb_status_bar_new(window->session), FALSE, FALSE, 0);
+}
+
+static void add_parts(SbWindow *window) {
+  GtkWidget *charts = gtk_toggle_button_new();
+  gtk_container_add(GTK_CONTAINER(charts),
+                    gtk_image_new_from_icon_name("view-dual-symbolic", GTK_ICON_SIZE_BUTTON));
+  gtk_widget_show_all(charts);
+  gtk_widget_set_visible(charts, FALSE);
+  gtk_widget_set_tooltip_text(charts, _("Charts next to the section"));
+  sb_style_name(charts, _("Charts"), NULL);
+  gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), charts);
+  sb_paned_layout_attach(GTK_PANED(window->columns), GTK_PANED(window->views), charts);
+  window->model_switch = sb_model_switch_new(window->session);
+  gtk_header_bar_pack_end(GTK_HEADER_BAR(window->header), window->model_switch);
+  GtkWidget *verdicts = sb_verdict_strip_new(window->session);
+  gtk_box_pack_start(GTK_BOX(window->valve_page), verdicts, FALSE, FALSE, 0);
+  gtk_box_reorder_child(GTK_BOX(window->valve_page), verdicts, 0);
+  fill_columns(window);
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_design_page_new(window->session), "design",
                        _("Design"));
   gtk_stack_add_titled(GTK_STACK(window->pages), sb_calibrate_page_new(window->session),
@@ -604,13 +610,9 @@ static void sb_window_init(SbWindow *window) {
   g_autoptr(GList) tabs =
       gtk_container_get_children(GTK_CONTAINER(window->switcher)); // the last is hidden
   sb_style_name(GTK_WIDGET(g_list_last(tabs)->data), _("Thesis"), NULL);
-  window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
-                                          GTK_MENU_BUTTON(window->recent_button));
-  sb_section_view_add_start(window->section, sb_window_files_start(window->files));
-  window->autosave = sb_autosave_new(window->session);
-  g_signal_connect(window, "notify::is-active", G_CALLBACK(on_active), NULL);
-  sb_autosave_offer(window->session, window->autosave, GTK_WINDOW(window));
+}
 
+static void connect_session(SbWindow *window) {
   g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), NULL);
   g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
   g_signal_connect_object(window->session, "params-changed", G_CALLBACK(refresh), window,
@@ -623,7 +625,25 @@ static void sb_window_init(SbWindow *window) {
                           G_CONNECT_SWAPPED);
   g_signal_connect_object(window->session, "playhead-changed", G_CALLBACK(ensure_tick), window,
                           G_CONNECT_SWAPPED);
+}
 
+static void sb_window_init(SbWindow *window) {
+  window->session = sb_session_new();
+  gtk_widget_init_template(GTK_WIDGET(window));
+  add_actions(window);
+  sb_style_window(GTK_WIDGET(window));
+  sb_toast_attach(GTK_WINDOW(window));
+  sb_review_attach(GTK_APPLICATION_WINDOW(window), window->session);
+
+  add_parts(window);
+  window->files = sb_window_files_new_for(GTK_WINDOW(window), window->session,
+                                          GTK_MENU_BUTTON(window->recent_button));
+  sb_section_view_add_start(window->section, sb_window_files_start(window->files));
+  window->autosave = sb_autosave_new(window->session);
+  g_signal_connect(window, "notify::is-active", G_CALLBACK(on_active), NULL);
+  sb_autosave_offer(window->session, window->autosave, GTK_WINDOW(window));
+
+  connect_session(window);
   const SbHeaderParts parts = {{window->run_label, window->export_label},
                                window->document_box,
                                window->switcher,

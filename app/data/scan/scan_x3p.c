@@ -67,28 +67,27 @@ static double number(const Main *main, const char *path, double missing) {
 
 // ---- The zip ----
 
-// Returns the index of a member by the path after the folder of main.xml; -1 without one. The exact
-// path wins; the case of letters, the kind of slashes and a folder around everything do not matter.
+// A path in lower case, with slashes, after a slash.
+static char *tidy_path(const char *path) {
+  path += g_str_has_prefix(path, "./") ? 2 : *path == '/';
+  g_autofree char *lower = g_ascii_strdown(path, -1);
+  return g_strconcat("/", g_strdelimit(lower, "\\", '/'), NULL);
+}
+
+// Returns the index of a member by the path after the folder of main.xml; -1 without one. The case
+// of letters, the kind of slashes and a folder around everything do not matter: the least deep one
+// is returned, as folders of a resource fork that archivers add are deeper.
 static zip_int64_t find_member(zip_t *zip, const char *path) {
   enum { MEMBERS_MAX = 10000 };
-  g_autofree char *plain = g_strdelimit(g_strdup(path), "\\", '/');
-  const char *wanted = g_str_has_prefix(plain, "./") ? plain + 2 : plain;
-  wanted += *wanted == '/';
-  zip_int64_t found = -1, best = G_MAXINT64;
   const zip_int64_t count = MIN(zip_get_num_entries(zip, 0), MEMBERS_MAX);
-  const size_t length = strlen(wanted);
-  for (zip_int64_t i = 0; i < count && best > 0; i++) {
+  g_autofree char *wanted = tidy_path(path);
+  zip_int64_t found = -1;
+  size_t best = SIZE_MAX;
+  for (zip_int64_t i = 0; i < count; i++) {
     const char *raw = zip_get_name(zip, (zip_uint64_t)i, 0);
-    g_autofree char *name = g_strdelimit(g_strdup(raw != NULL ? raw : ""), "\\", '/');
-    const size_t size = strlen(name);
-    if (size < length || g_ascii_strcasecmp(name + size - length, wanted) != 0 ||
-        (size > length && name[size - length - 1] != '/')) {
-      continue;
-    }
-    // The least deep one; the folders of a resource fork that archivers add are deeper.
-    const zip_int64_t depth = (zip_int64_t)(size - length);
-    if (depth < best) {
-      best = depth;
+    g_autofree char *name = tidy_path(raw != NULL ? raw : "");
+    if (g_str_has_suffix(name, wanted) && strlen(name) < best) {
+      best = strlen(name);
       found = i;
     }
   }
