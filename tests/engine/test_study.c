@@ -453,20 +453,45 @@ static void test_hooks(void) {
 
 // Propellants with solved rings: some pressures are solved, and friction in between is told with
 // its error: where nothing was solved a cycle agrees within it.
-static void test_rings(void) {
+static SbStudy *make_rings(SbModel *model, double work_limit) {
   SbParams params;
-  SbModel model;
   // Little friction: rings that are dragged much take seconds.
   const SbOverride few[] = {
       {SB_P_MODELS_FIT, SB_FIT_RING},       {SB_P_FRICTION_LOAD_COEFFICIENT, 0.02},
       {SB_P_FRICTION_SHEAR_STRENGTH, 1e5},  {SB_P_STUDY_TEMPERATURE_MIN, 263.15},
-      {SB_P_STUDY_TEMPERATURE_MAX, 305.15}, {SB_P_OUTPUT_TOLERANCE, 1e-2}};
+      {SB_P_STUDY_TEMPERATURE_MAX, 305.15}, {SB_P_OUTPUT_TOLERANCE, 1e-2},
+      {SB_P_OUTPUT_WORK_LIMIT, work_limit}};
   sb_params_init(&params);
   for (size_t i = 0; i < G_N_ELEMENTS(few); i++) {
     g_assert_cmpint(sb_params_set(&params, few[i].id, few[i].value, NULL), ==, SB_OK);
   }
-  g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
-  SbStudy *study = make(SB_STUDY_PROPELLANTS, &model);
+  g_assert_cmpint(sb_model_compile(model, &params, NULL, NULL), ==, SB_OK);
+  return make(SB_STUDY_PROPELLANTS, model);
+}
+
+// Pressures whose rings do not converge are left out while three are there: the rest is
+// interpolated within an error. With fewer the study has a gap.
+static void test_bridged(void) {
+  SbModel model;
+  SbStudy *study = make_rings(&model, 350);
+  int pressures = 0;
+  g_assert_cmpint(sscanf(study->models, "rings solved at %d", &pressures), ==, 1);
+  g_test_message("%s", study->models);
+  g_assert_cmpint(pressures, >=, 3);
+  g_assert_cmpint(pressures, <, 6);
+  g_assert_true(study->complete);
+  g_assert_cmpfloat(study->error, >, 0);
+  g_free(study);
+  study = make_rings(&model, 100);
+  g_assert_false(study->complete);
+  g_assert_null(strstr(study->models, "interpolated"));
+  g_assert_nonnull(strstr(study->gap, "fewer than three pressures"));
+  g_free(study);
+}
+
+static void test_rings(void) {
+  SbModel model;
+  SbStudy *study = make_rings(&model, 1e6);
   g_assert_true(study->complete);
   g_assert_nonnull(strstr(study->models, "rings solved at"));
   int pressures = 0;
@@ -577,6 +602,7 @@ int main(int argc, char **argv) {
     g_test_add_func("/study/squeeze", test_squeeze);
     g_test_add_func("/study/leak-fine", test_leak_fine);
     g_test_add_func("/study/rings", test_rings);
+    g_test_add_func("/study/bridged", test_bridged);
   }
   return g_test_run();
 }

@@ -94,7 +94,7 @@ static Seen look(SbStatus status, const SbReport *report, const SbEvaluator *eva
   return out;
 }
 
-static void account(SbStudyWork *work, const Seen *seen, double x) {
+static void account(SbStudyWork *work, const Seen *seen, int line, double x) {
   SbStudy *out = work->out;
   const size_t fits = seen->discs + seen->rings;
   work->spent += (double)seen->rings * SB_COST_RING + (double)seen->discs * SB_COST_DISC +
@@ -116,7 +116,8 @@ static void account(SbStudyWork *work, const Seen *seen, double x) {
   sb_text(code, sizeof code, "study-gap-%s", what);
   sb_warn(&out->warnings, code, sb_input_resolve(seen->report.input),
           "%s has no value at some points: %s", what, seen->report.text);
-  if (seen->status == SB_ERROR_NOT_CONVERGED) {
+  const bool bridged = work->design->is_bridged != NULL && work->design->is_bridged(work, line);
+  if (seen->status == SB_ERROR_NOT_CONVERGED && !bridged) {
     sb_study_gap(out, x, seen->report.text);
   }
 }
@@ -180,7 +181,7 @@ void sb_study_answer_rows(SbStudyWork *work, const double *value, const int *lin
     if (work->design->is_no_case != NULL && work->design->is_no_case(work, line[i], x[i])) {
       continue;
     }
-    account(work, &asking.seen[i], x[i]);
+    account(work, &asking.seen[i], line[i], x[i]);
     memcpy(out, figures + i * grid->figures, grid->figures * sizeof *out);
     if (work->design->derive != NULL) {
       work->design->derive(out, work, line[i], x[i]);
@@ -264,7 +265,7 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
     return;
   }
   const Seen seen = look(status, &report, work->evaluator);
-  account(work, &seen, NAN);
+  account(work, &seen, -1, NAN);
   sb_study_step(work, fmin(work->spent / work->total, 1));
 }
 

@@ -48,6 +48,9 @@ typedef struct {
   // With a grid: returns true if the place has no values (they become NaN) in spite of its figures.
   // Values of lines before it can be read. NULL: never.
   bool (*is_no_case)(SbStudyWork *work, int line, double x);
+  // With a grid: returns whether make() interpolates over a place of this line that has no values,
+  // with an error estimate; a solver that does not converge there leaves no gap. NULL: never.
+  bool (*is_bridged)(const SbStudyWork *work, int line);
   bool forces; // SbStudy.error includes that of the forces
   // Without a grid: sets the values of a place, which are NaN before; value p is that of panel p.
   void (*solve)(double value[SB_STUDY_VALUES], SbStudyWork *work, int line, double x);

@@ -140,6 +140,11 @@ static void fill(double *row, const SbStudyWork *work, int line, double x) {
   }
 }
 
+// Rings that are solved at some pressures only are interpolated over those that were not solved.
+static bool is_bridged(const SbStudyWork *work, int line) {
+  return interpolates(work->scene) && !work->scene->study.rings_solved && part_of(line) == SOLVED;
+}
+
 static void derive(double *value, SbStudyWork *work, int line, double x) {
   (void)line, (void)x;
   const double across = work->scene->stem_diameter;
@@ -359,12 +364,16 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
       ratios[fluid] = *of;
     }
     const double across = work->scene->stem_diameter, area = M_PI / 4 * across * across;
-    if (of->count > 0) {
+    if (isfinite(error)) {
       sb_message(out->models, sizeof out->models,
                  "rings solved at %zu pressures, %.2f to %.2f MPa, interpolated within %.2g %%",
                  of->count, 1e-6 * of->least / area, 1e-6 * of->largest / area, 100 * error);
+      out->error = fmax(out->error, error);
+    } else if (work->status == SB_OK) {
+      sb_study_gap(out, NAN,
+                   "rings converged at fewer than three pressures: there is no interpolation with "
+                   "an error estimate");
     }
-    out->error = fmax(out->error, error);
   }
   count = 0;
   for (int fluid = 1; fluid <= FLUIDS; fluid++) {
@@ -490,5 +499,6 @@ const SbStudyDesign sb_study_propellants = {
     .extra = extra,
     .extras = sizeof extra / sizeof extra[0],
     .derive = derive,
+    .is_bridged = is_bridged,
     .make = make,
 };
