@@ -451,8 +451,6 @@ static void test_hooks(void) {
   g_free(study);
 }
 
-// Propellants with solved rings: some pressures are solved, and friction in between is told with
-// its error: where nothing was solved a cycle agrees within it.
 static SbStudy *make_rings(SbModel *model, double work_limit) {
   SbParams params;
   // Little friction: rings that are dragged much take seconds.
@@ -489,6 +487,8 @@ static void test_bridged(void) {
   g_free(study);
 }
 
+// Propellants with solved rings: some pressures are solved, and the friction in between has an
+// error estimate: where nothing was solved a cycle agrees within it.
 static void test_rings(void) {
   SbModel model;
   SbStudy *study = make_rings(&model, 1e6);
