@@ -1,9 +1,9 @@
 // Ten thousand pictures of a run, drawn as a film draws them, take no more memory than a thousand:
 // what is allocated (malloc's own count) and what is resident stay. A leak grows with every sweep
 // over the run; the GL below us grows its caches in a few steps, whose moment depends on how its
-// threads are scheduled: so the median sweep is judged. Quick runs look at fewer pictures, the
-// argument's at any number: test-app-steady [PICTURES]. The address sanitizer holds freed memory
-// back, so there only the drawing is exercised.
+// threads are scheduled: so the sweep with the least growth is judged. Quick runs look at fewer
+// pictures, the argument's at any number: test-app-steady [PICTURES]. The address sanitizer holds
+// freed memory back, so there only the drawing is exercised.
 #include "app/export/movie_pictures.h"
 #include "app/section/painter.h"
 #include "tests/executed.h"
@@ -84,14 +84,15 @@ static void test_section(void) {
     growth[i] = (double)allocated[SETTLED + i + 1] - (double)allocated[SETTLED + i];
   }
   qsort(growth, G_N_ELEMENTS(growth), sizeof growth[0], compare);
-  double median = growth[G_N_ELEMENTS(growth) / 2];
+  // A leak grows in every sweep, what caches still take in some.
+  const double least = growth[0];
   g_test_message(
       "%.0f pictures a second; allocated %zu kB, then %zu kB, %.1f bytes a picture in the "
-      "median sweep; resident %zu, then %zu kB",
+      "least sweep; resident %zu, then %zu kB",
       (double)pictures / taken, allocated[SETTLED] / 1024, allocated[SWEEPS - 1] / 1024,
-      median / (double)sweep, in_memory / 1024, larger / 1024);
+      least / (double)sweep, in_memory / 1024, larger / 1024);
   if (!SB_SANITIZED) {
-    g_assert_cmpfloat(median, <, 16.0 * (double)sweep);
+    g_assert_cmpfloat(least, <, 16.0 * (double)sweep);
     g_assert_cmpuint(larger, <, in_memory + 4 * 1024 * 1024);
   }
   cairo_surface_destroy(surface);
