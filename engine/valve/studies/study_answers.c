@@ -119,6 +119,9 @@ static void account(SbStudyWork *work, const Seen *seen, int line, double x) {
   const bool bridged = work->design->is_bridged != NULL && work->design->is_bridged(work, line);
   if (seen->status == SB_ERROR_NOT_CONVERGED && !bridged) {
     sb_study_gap(out, x, seen->report.text);
+  } else if (seen->status == SB_ERROR_NOT_CONVERGED && work->bridged[0] == '\0') {
+    work->bridged_at = x;
+    sb_message(work->bridged, sizeof work->bridged, "%s", seen->report.text);
   }
 }
 

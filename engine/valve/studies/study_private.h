@@ -76,6 +76,8 @@ struct SbStudyWork {
   SbStatus status;             // SB_OK, or the error that ends the study
   double spent, total;         // predicted cost of questions so far, and of the study [s]
   double error[2], largest[2]; // largest error and largest value of loads [N] and widths [m]
+  double bridged_at;     // abscissa of the first place of which is_bridged() where a solver failed
+  char bridged[SB_TEXT]; // why; empty: none
   int line[SB_STUDY_COLUMNS], value[SB_STUDY_COLUMNS]; // of the columns, as in SbStudyDesign
   size_t answers;                                      // number of stored places
   struct {

@@ -369,10 +369,8 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
                  "rings solved at %zu pressures, %.2f to %.2f MPa, interpolated within %.2g %%",
                  of->count, 1e-6 * of->least / area, 1e-6 * of->largest / area, 100 * error);
       out->error = fmax(out->error, error);
-    } else if (work->status == SB_OK) {
-      sb_study_gap(out, NAN,
-                   "rings converged at fewer than three pressures: there is no interpolation with "
-                   "an error estimate");
+    } else if (work->bridged[0] != '\0') {
+      sb_study_gap(out, work->bridged_at, work->bridged); // too few are left
     }
   }
   count = 0;
