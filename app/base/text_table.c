@@ -17,9 +17,8 @@
 
 // Lines that are looked at, copied.
 typedef struct {
-  GPtrArray *line;   // of GString
-  size_t head;       // of them from the start of the file, without a gap
-  const char *wrong; // why the file cannot be read; NULL: it can
+  GPtrArray *line; // of GString
+  size_t head;     // of them from the start of the file, without a gap
 } Sample;
 
 enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into memory
@@ -72,47 +71,43 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
 }
 
 // Finds the encoding, unless it is known, and the ends of lines.
-static void find_lines(SbTextTableBytes *bytes, SbTextTableEncoding known) {
+static void find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
   g_autofree guint8 *head = g_malloc(HEAD_BYTES);
-  const size_t looked = fread(head, 1, MIN(bytes->length, HEAD_BYTES), bytes->stream);
-  bytes->encoding =
-      known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, bytes->length);
+  const size_t looked = fread(head, 1, MIN(lines->length, HEAD_BYTES), lines->stream);
+  lines->encoding =
+      known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, lines->length);
   const bool old = memchr(head, '\n', looked) == NULL && memchr(head, '\r', looked) != NULL;
-  bytes->line_end = old ? '\r' : '\n';
+  lines->line_end = old ? '\r' : '\n';
 }
 
 static void string_free(gpointer data) {
   g_string_free(data, TRUE);
 }
 
-static void take_lines(Sample *sample, const SbTextTableBytes *bytes, size_t from,
-                       size_t lines_max) {
-  SbTextTableLines lines;
+static void take_lines(Sample *sample, SbTextTableLines *lines, size_t from, size_t lines_max) {
   const GString *line;
-  sb_text_table_lines_init(&lines, bytes, from);
+  sb_text_table_seek(lines, from);
   if (from > 0) {
-    (void)sb_text_table_next(&lines); // the rest of a line
+    (void)sb_text_table_next(lines); // the rest of a line
   }
-  const size_t start = lines.left;
-  for (size_t i = 0; i < lines_max && start - lines.left < SAMPLE_BYTES &&
-                     (line = sb_text_table_next(&lines)) != NULL;
+  const size_t start = lines->left;
+  for (size_t i = 0; i < lines_max && start - lines->left < SAMPLE_BYTES &&
+                     (line = sb_text_table_next(lines)) != NULL;
        i++) {
     g_ptr_array_add(sample->line, g_string_new_len(line->str, (gssize)MIN(line->len, LINE_BYTES)));
     sample->head += from == 0;
   }
-  sample->wrong = sample->wrong != NULL ? sample->wrong : lines.wrong;
-  sb_text_table_lines_clear(&lines);
 }
 
-static Sample take_sample(const SbTextTableBytes *bytes) {
+static Sample take_sample(SbTextTableLines *lines) {
   Sample sample = {.line = g_ptr_array_new_with_free_func(string_free)};
-  take_lines(&sample, bytes, 0, SAMPLE_LINES);
+  take_lines(&sample, lines, 0, SAMPLE_LINES);
   for (size_t part = 1; part <= 3; part++) {
     // Places behind the first look; the last near the end.
-    const size_t from = part < 3 ? part * (bytes->length / 3)
-                                 : bytes->length - MIN(bytes->length, SAMPLE_BYTES / 8);
+    const size_t from = part < 3 ? part * (lines->length / 3)
+                                 : lines->length - MIN(lines->length, SAMPLE_BYTES / 8);
     if (from > SAMPLE_BYTES) {
-      take_lines(&sample, bytes, from & ~(size_t)1, SAMPLE_TAIL);
+      take_lines(&sample, lines, from & ~(size_t)1, SAMPLE_TAIL);
     }
   }
   return sample;
@@ -149,10 +144,6 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
   return shape;
 }
 
-static int count_bits(guint64 bits) {
-  return __builtin_popcountll(bits);
-}
-
 // Whether two lines are rows of one table: numbers, times and texts are in the same columns. A cell
 // may be empty; in a matrix, a row may have another length.
 static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
@@ -167,7 +158,7 @@ static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
 
 static bool is_row(const SbTextTableShape *shape, const SbTextTableDialect *dialect) {
   return dialect->matrix ? shape->cells > 0 && shape->texts == 0
-                         : count_bits(shape->numeric | shape->clocks) >= 2;
+                         : __builtin_popcountll(shape->numeric | shape->clocks) >= 2;
 }
 
 static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) {
@@ -196,7 +187,7 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
   Fit fit = {.dialect = *dialect};
   for (size_t i = 0; i < count; i++) {
     const double columns = (double)MIN(seen[i].cells, SB_TEXT_TABLE_COLUMNS_MAX);
-    const double share = (double)count_bits(seen[i].numeric | seen[i].clocks) / columns;
+    const double share = (double)__builtin_popcountll(seen[i].numeric | seen[i].clocks) / columns;
     const double score = (double)rows[i] * share * share;
     if (rows[i] >= (dialect->matrix ? 1 : 2) && score > fit.score) {
       fit = (Fit){*dialect, seen[i], score};
@@ -292,9 +283,10 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
   enum { NAMES_BYTES = 4096 };
   if (!row) {
     const SbTextTableShape here = sb_text_table_shape(line, dialect);
-    const int least = dialect->matrix ? 1 : MAX(2, count_bits(shape->numeric | shape->clocks) - 1);
+    const int least =
+        dialect->matrix ? 1 : MAX(2, __builtin_popcountll(shape->numeric | shape->clocks) - 1);
     const bool numbers = !dialect->matrix && (here.numeric | here.clocks) != 0;
-    const bool names = !numbers && count_bits(here.texts) >= least && !block->after_row;
+    const bool names = !numbers && __builtin_popcountll(here.texts) >= least && !block->after_row;
     if (names && !block->after_names) {
       g_free(block->names);
       block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
@@ -362,8 +354,8 @@ static bool accept_commas(const SbTextTable *table, const Sample *sample, const 
 static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTableDialect *wish,
                       GPtrArray *issues) {
   Fit fit;
-  if (sample->wrong != NULL) {
-    return sb_issues_add(issues, table->file->shown, 0, NULL, NULL, "%s", sample->wrong);
+  if (table->file->lines.wrong != NULL) {
+    return sb_issues_add(issues, table->file->shown, 0, NULL, NULL, "%s", table->file->lines.wrong);
   }
   if (!find_dialect(&fit, table, sample, wish, issues)) {
     return false;
@@ -396,12 +388,14 @@ static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const cha
   static const SbTextTableDialect nothing = {0};
   g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
   table->file = g_new0(SbTextTableFile, 1);
-  *table->file = (SbTextTableFile){
-      .shown = g_strdup(shown), .bytes = {.stream = stream, .length = length}, .owned = owned};
+  *table->file =
+      (SbTextTableFile){.shown = g_strdup(shown),
+                        .lines = {.stream = stream, .length = length, .line = g_string_new(NULL)},
+                        .owned = owned};
   wish = wish != NULL ? wish : &nothing;
-  find_lines(&table->file->bytes, wish->encoding);
-  table->dialect.encoding = table->file->bytes.encoding;
-  const Sample sample = take_sample(&table->file->bytes);
+  find_lines(&table->file->lines, wish->encoding);
+  table->dialect.encoding = table->file->lines.encoding;
+  const Sample sample = take_sample(&table->file->lines);
   const bool good = recognise(table, &sample, wish, issues);
   g_ptr_array_unref(sample.line);
   return good ? g_steal_pointer(&table) : NULL;
@@ -444,7 +438,8 @@ void sb_text_table_free(SbTextTable *table) {
   if (table == NULL) {
     return;
   }
-  fclose(table->file->bytes.stream);
+  fclose(table->file->lines.stream);
+  g_string_free(table->file->lines.line, TRUE);
   g_free(table->file->owned);
   g_free(table->file->names);
   g_free(table->file->shown);

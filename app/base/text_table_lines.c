@@ -4,40 +4,36 @@
 #include <errno.h>
 #include <string.h>
 
-static bool is_wide(const SbTextTableBytes *bytes) {
-  return bytes->encoding == SB_TEXT_TABLE_UTF16LE || bytes->encoding == SB_TEXT_TABLE_UTF16BE;
+static bool is_wide(const SbTextTableLines *lines) {
+  return lines->encoding == SB_TEXT_TABLE_UTF16LE || lines->encoding == SB_TEXT_TABLE_UTF16BE;
 }
 
-void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from) {
+void sb_text_table_seek(SbTextTableLines *lines, size_t from) {
   char mark[3] = "";
-  *lines = (SbTextTableLines){.bytes = bytes, .line = g_string_new(NULL)};
-  (void)fseeko(bytes->stream, (off_t)from, SEEK_SET);
-  const size_t got = fread(mark, 1, sizeof mark, bytes->stream);
-  const bool wide = got >= 2 && is_wide(bytes) &&
+  (void)fseeko(lines->stream, (off_t)from, SEEK_SET);
+  const size_t got = fread(mark, 1, sizeof mark, lines->stream);
+  const bool wide = got >= 2 && is_wide(lines) &&
                     (memcmp(mark, "\xff\xfe", 2) == 0 || memcmp(mark, "\xfe\xff", 2) == 0);
   from += wide ? 2 : got == 3 && memcmp(mark, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
-  (void)fseeko(bytes->stream, (off_t)from, SEEK_SET);
-  lines->left = bytes->length - MIN(from, bytes->length);
-}
-
-void sb_text_table_lines_clear(SbTextTableLines *lines) {
-  g_string_free(lines->line, TRUE);
+  (void)fseeko(lines->stream, (off_t)from, SEEK_SET);
+  lines->left = lines->length - MIN(from, lines->length);
+  lines->number = 0;
 }
 
 // The next byte, or unit of UTF-16; EOF at the end, or with bytes left where they cannot be read.
 static int next_unit(SbTextTableLines *lines) {
-  FILE *stream = lines->bytes->stream;
-  const size_t size = is_wide(lines->bytes) ? 2 : 1;
+  const size_t size = is_wide(lines) ? 2 : 1;
   if (lines->left < size) {
     lines->left = 0;
     return EOF;
   }
-  const int one = getc_unlocked(stream), two = size > 1 ? getc_unlocked(stream) : 0;
+  const int one = getc_unlocked(lines->stream);
+  const int two = size > 1 ? getc_unlocked(lines->stream) : 0;
   if (one == EOF || two == EOF) {
     return EOF;
   }
   lines->left -= size;
-  return lines->bytes->encoding == SB_TEXT_TABLE_UTF16BE ? one << 8 | two : one | two << 8;
+  return lines->encoding == SB_TEXT_TABLE_UTF16BE ? one << 8 | two : one | two << 8;
 }
 
 // Converts bytes of an old encoding; without one of their codes, each byte is a character.
@@ -56,8 +52,7 @@ static void convert(GString *line, SbTextTableEncoding encoding) {
 }
 
 const GString *sb_text_table_next(SbTextTableLines *lines) {
-  const SbTextTableBytes *bytes = lines->bytes;
-  const bool wide = is_wide(bytes);
+  const bool wide = is_wide(lines);
   bool high = false;
   int unit = EOF;
   if (lines->wrong != NULL || lines->left == 0) {
@@ -66,7 +61,7 @@ const GString *sb_text_table_next(SbTextTableLines *lines) {
   lines->number++;
   g_string_truncate(lines->line, 0);
   while (lines->line->len < SB_TEXT_TABLE_LINE_MAX && (unit = next_unit(lines)) != EOF &&
-         unit != bytes->line_end) {
+         unit != lines->line_end) {
     high |= unit >= 0x80;
     if (wide && unit >= 0x80) {
       g_string_append_unichar(lines->line, unit >= 0xd800 && unit < 0xe000 ? '?' : (gunichar)unit);
@@ -76,7 +71,7 @@ const GString *sb_text_table_next(SbTextTableLines *lines) {
   }
   if (lines->line->len >= SB_TEXT_TABLE_LINE_MAX || (unit == EOF && lines->left > 0)) {
     lines->wrong = unit != EOF             ? "has a line of more than 64 MiB"
-                   : ferror(bytes->stream) ? g_strerror(errno)
+                   : ferror(lines->stream) ? g_strerror(errno)
                                            : "was cut short while it was read";
     return NULL;
   }
@@ -84,9 +79,9 @@ const GString *sb_text_table_next(SbTextTableLines *lines) {
     g_string_truncate(lines->line, lines->line->len - 1);
   }
   const bool old =
-      bytes->encoding == SB_TEXT_TABLE_LATIN1 || bytes->encoding == SB_TEXT_TABLE_SHIFT_JIS;
+      lines->encoding == SB_TEXT_TABLE_LATIN1 || lines->encoding == SB_TEXT_TABLE_SHIFT_JIS;
   if (old && high && !g_utf8_validate(lines->line->str, (gssize)lines->line->len, NULL)) {
-    convert(lines->line, bytes->encoding); // programs mix encodings
+    convert(lines->line, lines->encoding); // programs mix encodings
   }
   return lines->line;
 }

@@ -5,32 +5,24 @@
 
 #include <stdio.h>
 
-// The bytes of a table. (A memory map would crash if another program truncates the file.)
+// The bytes of a table, read line by line. (A memory map would crash if another program truncates
+// the file.)
 typedef struct {
   FILE *stream;  // of the file, or of bytes in memory
   size_t length; // of the file when it was opened
   SbTextTableEncoding encoding;
-  char line_end; // '\n', or '\r' for files without newlines
-} SbTextTableBytes;
-
-// Longest line in UTF-8 [bytes].
-enum { SB_TEXT_TABLE_LINE_MAX = 1 << 26 };
-
-// Reads the bytes line by line; one reader at a time. Initialised by sb_text_table_lines_init(),
-// freed by sb_text_table_lines_clear().
-typedef struct {
-  const SbTextTableBytes *bytes;
+  char line_end;     // '\n', or '\r' for files without newlines
   size_t left;       // bytes that are not read yet
-  int number;        // of the line last read, from 1
+  int number;        // of the line last read, from 1 behind sb_text_table_seek()
   GString *line;     // that line
   const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
 } SbTextTableLines;
 
-// Starts to read at byte `from`. `bytes` is borrowed.
-void sb_text_table_lines_init(SbTextTableLines *lines, const SbTextTableBytes *bytes, size_t from);
+// Longest line in UTF-8 [bytes].
+enum { SB_TEXT_TABLE_LINE_MAX = 1 << 26 };
 
-// Frees the buffer.
-void sb_text_table_lines_clear(SbTextTableLines *lines);
+// Continues to read at byte `from`.
+void sb_text_table_seek(SbTextTableLines *lines, size_t from);
 
 // Returns the next line in UTF-8 without its end, borrowed until the next call. NULL at the end, or
 // with `wrong` set if the file cannot be read.
@@ -100,7 +92,7 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
 // Where a table is read from.
 typedef struct SbTextTableFile {
   char *shown; // the file, for messages
-  SbTextTableBytes bytes;
+  SbTextTableLines lines;
   char *owned;            // memory of the bytes of a pipe; else NULL
   SbTextTableShape shape; // of its rows
   char *names;            // line of names above its rows, as in the file; NULL: none

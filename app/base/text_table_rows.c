@@ -88,14 +88,14 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   }
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
-  SbTextTableLines lines;
+  SbTextTableLines *lines = &table->file->lines;
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
   const GString *text;
   size_t room = 0;
-  sb_text_table_lines_init(&lines, &table->file->bytes, 0);
-  while (wrong == NULL && (text = sb_text_table_next(&lines)) != NULL) {
-    if ((size_t)lines.number <= table->header_lines) {
+  sb_text_table_seek(lines, 0);
+  while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
+    if ((size_t)lines->number <= table->header_lines) {
       continue;
     }
     Line line = {0};
@@ -117,21 +117,20 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
                            (line.cells == table->columns && line.any && line.unreadable == 1);
       *(damaged ? &out->damaged : &out->skipped) += 1;
       if (out->left_text == NULL) {
-        out->left_line = lines.number;
+        out->left_line = lines->number;
         out->left_text = sb_printable(text->str, text->len);
       }
     }
   }
-  wrong = wrong != NULL ? wrong : lines.wrong;
+  wrong = wrong != NULL ? wrong : lines->wrong;
   if (wrong != NULL) {
-    sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL, "%s", wrong);
+    sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL, "%s", wrong);
     for (size_t k = 0; k < count; k++) {
       g_clear_pointer(&value[k], g_free);
     }
     g_clear_pointer(&out->left_text, g_free);
   }
   g_free(block.names);
-  sb_text_table_lines_clear(&lines);
   return wrong == NULL;
 }
 
@@ -160,12 +159,13 @@ static gssize append_cells(GArray *out, const GString *line, size_t columns, siz
 bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
-  SbTextTableLines lines;
+  SbTextTableLines *lines = &table->file->lines;
   const GString *text;
+  const char *wrong = NULL;
   bool good = true;
-  sb_text_table_lines_init(&lines, &table->file->bytes, 0);
-  while (good && (text = sb_text_table_next(&lines)) != NULL) {
-    if ((size_t)lines.number <= table->header_lines || text->len == 0 ||
+  sb_text_table_seek(lines, 0);
+  while (good && wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
+    if ((size_t)lines->number <= table->header_lines || text->len == 0 ||
         memchr("#%!", *text->str, 3) != NULL) {
       continue;
     }
@@ -173,22 +173,21 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
     const gssize count = append_cells(out->value, text, columns, most, &table->dialect);
     if (count > 0) {
       out->columns = out->rows == 0 ? (size_t)count : out->columns;
-      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines.number : out->ragged;
+      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines->number : out->ragged;
       out->rows++;
     }
-    good = count >= 0 && (size_t)count <= most && out->value->len <= 3 * most;
     if (count < 0) {
       g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
-      sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL,
-                    "numbers expected, not \"%s\"", shown);
-    } else if (!good) {
-      sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL, "has too many numbers");
+      good = sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL,
+                           "numbers expected, not \"%s\"", shown);
+    } else if ((size_t)count > most || out->value->len > 3 * most) {
+      wrong = "has too many numbers";
     }
   }
-  if (good && lines.wrong != NULL) {
-    good = sb_issues_add(issues, table->file->shown, lines.number, NULL, NULL, "%s", lines.wrong);
+  wrong = wrong != NULL ? wrong : lines->wrong;
+  if (good && wrong != NULL) {
+    good = sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL, "%s", wrong);
   }
-  sb_text_table_lines_clear(&lines);
   if (!good) {
     g_clear_pointer(&out->value, g_array_unref);
   }

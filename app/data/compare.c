@@ -2,6 +2,7 @@
 #include "app/data/compare.h"
 
 #include <math.h>
+#include <string.h>
 
 // ---- The run's loop ----
 
@@ -11,11 +12,6 @@ static void add(SbLoop *loop, int way, double displacement, double force) {
   // Only on: where the stem sticks or jumps back, the loop has no one force.
   if (*count > 0 && !(way == 0 ? displacement > last : displacement < last)) {
     return;
-  }
-  if (*count == loop->room[way]) {
-    loop->room[way] = MAX(2 * loop->room[way], 512);
-    loop->displacement[way] = g_renew(double, loop->displacement[way], loop->room[way]);
-    loop->force[way] = g_renew(double, loop->force[way], loop->room[way]);
   }
   loop->displacement[way][*count] = displacement;
   loop->force[way][(*count)++] = force;
@@ -29,7 +25,11 @@ bool sb_loop_take(SbLoop *loop, const SbRun *run) {
     loop->stage_displacement[s] = mark[s].reached ? mark[s].displacement : NAN;
     loop->stage_force[s] = mark[s].reached ? mark[s].force : NAN;
   }
-  loop->count[0] = loop->count[1] = 0;
+  for (int way = 0; way < 2; way++) {
+    loop->count[way] = 0;
+    loop->displacement[way] = g_renew(double, loop->displacement[way], frames);
+    loop->force[way] = g_renew(double, loop->force[way], frames);
+  }
   if (!mark[SB_STAGE_B].reached) {
     return false;
   }
@@ -95,10 +95,8 @@ SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loo
   }
   out->mean = rows > 0 ? sum / rows : NAN;
   out->rms = rows > 0 ? sqrt(square / rows) : NAN;
-  for (int s = 0; s < SB_STAGE_COUNT; s++) {
-    out->model_displacement[s] = loop->stage_displacement[s];
-    out->model_force[s] = loop->stage_force[s];
-  }
+  memcpy(out->model_displacement, loop->stage_displacement, sizeof loop->stage_displacement);
+  memcpy(out->model_force, loop->stage_force, sizeof loop->stage_force);
   if (measured->last > measured->first) {
     sb_measured_band(&out->band, measured);
   }

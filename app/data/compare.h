@@ -9,7 +9,7 @@
 // The first cycle of a run while the stem slides: index 0 is the in-stroke from stage B to D, index
 // 1 the return from E to the end. Initialise it with zeros, which is an empty loop.
 typedef struct {
-  size_t count[2], room[2]; // number of points; capacity of the arrays, internal
+  size_t count[2]; // number of points
   // [count], in the order of time: strictly increasing on the in-stroke, decreasing on the return.
   double *displacement[2];                   // of the stem [m], from rest
   double *force[2];                          // of the drive on the stem [N]

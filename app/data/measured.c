@@ -41,7 +41,7 @@ void sb_measured_free(SbMeasured *measured) {
     g_free(measured->value[i]);
   }
   g_free(measured->name);
-  g_free(measured->skipped_text);
+  g_free(measured->lines.left_text);
   if (measured->cycle != NULL) {
     g_array_unref(measured->cycle);
   }
@@ -53,10 +53,9 @@ void sb_measured_free(SbMeasured *measured) {
 static const char *const separator_names[] = {"comma", "semicolon", "tab", "blank", NULL};
 static const char *const decimal_names[] = {"point", "comma", NULL};
 const char *const sb_measured_directions[] = {"as-is", "force", "displacement", "both", NULL};
-static const char separators[] = ",;\t ", decimals[] = ".,";
+// Their characters; the first one, of an absent key, is to be recognised.
+static const char separators[] = "\0,;\t ", decimals[] = "\0.,";
 
-// Returns the index in `names` (ended by NULL) of a key's text; 0 for an absent key. Another text
-// is an issue.
 size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
                         GPtrArray *issues) {
   size_t index = 0;
@@ -68,27 +67,7 @@ size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *na
     g_autofree char *allowed = g_strjoinv(", ", (char **)names);
     sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
   }
-  return index;
-}
-
-static bool read_wish(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues) {
-  static const char *const signals[] = {"force over displacement", NULL};
-  const guint before = issues->len;
-  *wish = (SbTextTableDialect){0};
-  if (data->text[SB_DATA_SEPARATOR] != NULL) {
-    wish->separator =
-        separators[sb_measured_word(data, SB_DATA_SEPARATOR, separator_names, issues)];
-  }
-  if (data->text[SB_DATA_DECIMAL] != NULL) {
-    wish->decimal = decimals[sb_measured_word(data, SB_DATA_DECIMAL, decimal_names, issues)];
-  }
-  if (data->text[SB_DATA_ENCODING] != NULL) {
-    wish->encoding =
-        (SbTextTableEncoding)(1 + sb_measured_word(data, SB_DATA_ENCODING,
-                                                   sb_text_table_encodings + 1, issues));
-  }
-  (void)sb_measured_word(data, SB_DATA_SIGNAL, signals, issues);
-  return issues->len == before;
+  return data->text[key] != NULL ? index + 1 : 0;
 }
 
 // ---- Columns ----
@@ -152,7 +131,7 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
                                  "\"%s\" is not a column that is read", word);
       }
       if (channel < SB_CHANNELS) {
-        m->column[channel].index = (int)i;
+        m->column[channel].at = i + 1;
         m->column[channel].how = SB_HOW_SAID;
       }
     }
@@ -211,13 +190,11 @@ static bool same_name(const char *a, const char *b) {
 // one order with the same names.
 static bool are_specimens(const SbTextTable *table, const size_t *place, const size_t *force,
                           size_t count) {
-  const bool first = place[0] < force[0];
+  const size_t *low = place[0] < force[0] ? place : force, *high = low == place ? force : place;
   for (size_t i = 0; i < count; i++) {
-    const size_t low = first ? place[i] : force[i], high = first ? force[i] : place[i];
-    const bool next = i == 0 || low > (first ? force[i - 1] : place[i - 1]);
-    if (low > high || !next ||
-        !same_name(table->column[place[0]].name, table->column[place[i]].name) ||
-        !same_name(table->column[force[0]].name, table->column[force[i]].name)) {
+    if (low[i] > high[i] || (i > 0 && low[i] <= high[i - 1]) ||
+        !same_name(table->column[low[0]].name, table->column[low[i]].name) ||
+        !same_name(table->column[high[0]].name, table->column[high[i]].name)) {
       return false;
     }
   }
@@ -230,7 +207,7 @@ static bool find_channels(SbMeasured *m, const SbTextTable *table, const SbData 
   size_t column[SB_CHANNELS][SB_TEXT_TABLE_COLUMNS_MAX], count[SB_CHANNELS];
   for (int c = 0; c < SB_CHANNELS; c++) {
     count[c] = find_columns(column[c], table, (SbChannel)c);
-    m->column[c].index = count[c] > 0 ? (int)column[c][0] : -1;
+    m->column[c].at = count[c] > 0 ? column[c][0] + 1 : 0;
     m->column[c].how = count[c] > 0 ? SB_HOW_FOUND : SB_HOW_ASSUMED;
   }
   const size_t pairs = count[SB_CHANNEL_DISPLACEMENT];
@@ -256,13 +233,14 @@ static bool find_channels(SbMeasured *m, const SbTextTable *table, const SbData 
 static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *data, double speed,
                          GPtrArray *issues) {
   const char *said = data->text[SB_DATA_SPEED];
-  const bool column = m->column[SB_CHANNEL_DISPLACEMENT].index >= 0;
+  const bool column = m->column[SB_CHANNEL_DISPLACEMENT].at > 0;
+  const bool timed = m->column[SB_CHANNEL_TIME].at > 0;
   if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
                        !(speed > 0 && speed <= SPEED_MAX))) {
     return sb_data_add_issue(data, SB_DATA_SPEED, "as in 20 mm/min, up to 10 m/s", issues,
                              "\"%s\" is not a speed of a machine", said);
   }
-  if (said != NULL && (column || m->column[SB_CHANNEL_TIME].index < 0)) {
+  if (said != NULL && (column || !timed)) {
     return sb_data_add_issue(data, SB_DATA_SPEED, NULL, issues,
                              column ? "the displacement has a column of its own: one of them only"
                                     : "there is no column of the time that it would need");
@@ -272,7 +250,7 @@ static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *
   for (size_t i = 0; i < table->columns; i++) {
     numbers += table->column[i].numeric || table->column[i].clock;
   }
-  if (!column && m->column[SB_CHANNEL_TIME].index >= 0 && m->column[SB_CHANNEL_FORCE].index >= 0 &&
+  if (!column && timed && m->column[SB_CHANNEL_FORCE].at > 0 &&
       (said != NULL || (speed > 0 && (numbers == 2 || data->text[SB_DATA_COLUMNS] != NULL)))) {
     m->speed = speed;
     m->speed_how = said != NULL ? SB_HOW_SAID : SB_HOW_ASSUMED;
@@ -283,7 +261,7 @@ static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *
 // Refuses a file without a column for `channel`, with the names of its columns.
 static bool miss_column(const SbMeasured *m, const SbTextTable *table, const SbData *data,
                         int channel, GPtrArray *issues) {
-  const bool timed = channel == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].index >= 0;
+  const bool timed = channel == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].at > 0;
   g_autoptr(GString) list = g_string_new(NULL);
   for (size_t i = 0; i < table->columns && i < 8; i++) {
     g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "", table->column[i].name);
@@ -298,23 +276,20 @@ static bool miss_column(const SbMeasured *m, const SbTextTable *table, const SbD
 
 static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data, double speed,
                            double *scale, GPtrArray *issues) {
-  for (int c = 0; c < SB_CHANNELS; c++) {
-    m->column[c].index = -1;
-  }
   if (!take_said(m, table, data, issues) ||
       (data->text[SB_DATA_COLUMNS] == NULL && !find_channels(m, table, data, issues)) ||
       !settle_speed(m, table, data, speed, issues)) {
     return false;
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
-    const int at = m->column[c].index;
-    if (at < 0 && (c == SB_CHANNEL_TIME || (c == SB_CHANNEL_DISPLACEMENT && m->speed > 0))) {
+    const size_t at = m->column[c].at;
+    if (at == 0 && (c == SB_CHANNEL_TIME || (c == SB_CHANNEL_DISPLACEMENT && m->speed > 0))) {
       continue;
     }
-    if (at < 0) {
+    if (at == 0) {
       return miss_column(m, table, data, c, issues);
     }
-    const SbTextTableColumn *column = &table->column[at];
+    const SbTextTableColumn *column = &table->column[at - 1];
     m->column[c].name = g_strdup(column->name);
     m->column[c].clock = column->clock;
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
@@ -322,10 +297,9 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
     if (!column->clock && !unit_scale(&scale[c], column->unit, (SbChannel)c)) {
       const bool none = *column->unit == '\0';
       return sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
-                               "column %d \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N",
-                               at + 1, column->name, channels[c].name,
-                               none ? "no unit" : "the unit \"", column->unit,
-                               none ? "" : "\", which is none of its kind");
+                               "column %zu \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N",
+                               at, column->name, channels[c].name, none ? "no unit" : "the unit \"",
+                               column->unit, none ? "" : "\", which is none of its kind");
     }
   }
   return true;
@@ -453,27 +427,23 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
   size_t column[SB_CHANNELS], count = 0;
   double *read[SB_CHANNELS];
   for (int c = 0; c < SB_CHANNELS; c++) {
-    if (m->column[c].index >= 0) {
-      column[count++] = (size_t)m->column[c].index;
+    if (m->column[c].at > 0) {
+      column[count++] = m->column[c].at - 1;
     }
   }
-  SbTextTableRows rows;
-  if (!sb_text_table_read(&rows, read, table, column, count, issues)) {
+  if (!sb_text_table_read(&m->lines, read, table, column, count, issues)) {
     return NULL;
   }
   for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
-    m->value[c] = m->column[c].index >= 0 ? read[k++] : NULL;
+    m->value[c] = m->column[c].at > 0 ? read[k++] : NULL;
   }
-  m->count = rows.rows;
-  m->skipped = rows.skipped;
-  m->skipped_line = rows.left_line;
-  m->skipped_text = rows.left_text;
-  bool good = m->skipped <= m->count ||
-              sb_issues_add(issues, data->path, m->skipped_line, NULL, NULL,
+  m->count = m->lines.rows;
+  bool good = m->lines.skipped <= m->count ||
+              sb_issues_add(issues, data->path, m->lines.left_line, NULL, NULL,
                             "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
-                            m->skipped, m->count, m->skipped_text);
+                            m->lines.skipped, m->count, m->lines.left_text);
   good = good && settle_rows(m, data, scale, issues);
-  m->dropped += rows.damaged;
+  m->dropped += m->lines.damaged;
   if (good && m->count < 8) {
     good = sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows",
                          "has too few rows for a loop");
@@ -482,30 +452,37 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
   return good ? g_steal_pointer(&m) : NULL;
 }
 
-SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
-  SbTextTableDialect wish;
-  const bool good = read_wish(&wish, data, issues);
-  g_autoptr(SbTextTable) table = good ? sb_text_table_open(data->path, &wish, issues) : NULL;
+SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
+                              GPtrArray *issues) {
+  static const char *const signals[] = {"force over displacement", NULL};
+  const guint before = issues->len;
+  SbTextTableDialect wish = {0};
+  wish.separator = separators[sb_measured_word(data, SB_DATA_SEPARATOR, separator_names, issues)];
+  wish.decimal = decimals[sb_measured_word(data, SB_DATA_DECIMAL, decimal_names, issues)];
+  wish.encoding = (SbTextTableEncoding)sb_measured_word(data, SB_DATA_ENCODING,
+                                                        sb_text_table_encodings + 1, issues);
+  (void)sb_measured_word(data, SB_DATA_SIGNAL, signals, issues);
+  if (issues->len > before) {
+    return NULL;
+  }
+  g_autoptr(SbTextTable) table = bytes != NULL
+                                     ? sb_text_table_parse(bytes, length, &wish, data->path, issues)
+                                     : sb_text_table_open(data->path, &wish, issues);
   return table != NULL ? read_table(table, data, speed, issues) : NULL;
 }
 
-SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
-                              GPtrArray *issues) {
-  SbTextTableDialect wish;
-  const bool good = read_wish(&wish, data, issues);
-  g_autoptr(SbTextTable) table =
-      good ? sb_text_table_parse(bytes, length, &wish, data->path, issues) : NULL;
-  return table != NULL ? read_table(table, data, speed, issues) : NULL;
+SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
+  return sb_measured_parse(data, speed, NULL, 0, issues);
 }
 
 // ---- What was recognised ----
 
 static const char *separator_name(const SbMeasured *m) {
-  return separator_names[strchr(separators, m->dialect.separator) - separators];
+  return separator_names[strchr(separators + 1, m->dialect.separator) - separators - 1];
 }
 
 static const char *decimal_name(const SbMeasured *m) {
-  return decimal_names[strchr(decimals, m->dialect.decimal) - decimals];
+  return decimal_names[strchr(decimals + 1, m->dialect.decimal) - decimals - 1];
 }
 
 static const char *direction_name(const SbMeasured *m) {
@@ -516,20 +493,20 @@ char *sb_measured_keys(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
   g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m),
                          decimal_name(m), sb_text_table_encodings[m->dialect.encoding]);
-  int last = 0;
+  size_t last = 1;
   for (int c = 0; c < SB_CHANNELS; c++) {
-    last = MAX(last, m->column[c].index);
+    last = MAX(last, m->column[c].at);
   }
   for (int units = 0; units < 2; units++) {
     g_string_append(out, units ? "units = " : "columns = ");
-    for (int i = 0; i <= last; i++) {
+    for (size_t i = 1; i <= last; i++) {
       const char *word = "-";
       for (int c = 0; c < SB_CHANNELS; c++) {
-        if (m->column[c].index == i) {
+        if (m->column[c].at == i) {
           word = !units ? channels[c].name : m->column[c].clock ? "-" : m->column[c].unit;
         }
       }
-      g_string_append_printf(out, "%s%s", i > 0 ? ", " : "", word);
+      g_string_append_printf(out, "%s%s", i > 1 ? ", " : "", word);
     }
     g_string_append_c(out, '\n');
   }
@@ -557,9 +534,9 @@ char *sb_measured_text(const SbMeasured *m) {
                          decimal_name(m), sb_text_table_encodings[m->dialect.encoding],
                          m->header_lines);
   for (int c = 0; c < SB_CHANNELS; c++) {
-    if (m->column[c].index >= 0) {
-      g_string_append_printf(out, "%s: column %d \"%s\" in %s (%s)\n", channels[c].name,
-                             m->column[c].index + 1, m->column[c].name, m->column[c].unit,
+    if (m->column[c].at > 0) {
+      g_string_append_printf(out, "%s: column %zu \"%s\" in %s (%s)\n", channels[c].name,
+                             m->column[c].at, m->column[c].name, m->column[c].unit,
                              hows[m->column[c].how]);
     }
   }
@@ -582,9 +559,9 @@ char *sb_measured_text(const SbMeasured *m) {
     g_string_append_printf(out, ", %zu with a cell that is empty or cannot be read dropped",
                            m->dropped);
   }
-  if (m->skipped > 0) {
+  if (m->lines.skipped > 0) {
     g_string_append_printf(out, ", %zu lines between them are not rows (line %d: \"%s\")",
-                           m->skipped, m->skipped_line, m->skipped_text);
+                           m->lines.skipped, m->lines.left_line, m->lines.left_text);
   }
   char digits[3][SB_NUMBER_SIZE];
   g_string_append_printf(out, "\n%u cycles, ", m->cycle->len);

@@ -65,12 +65,10 @@ typedef struct {
   char *name; // of the file, without its folder
   // Format of the file.
   SbTextTableDialect dialect;
-  // Numbers of lines before the first row, and of later lines that are not rows of the table.
-  size_t header_lines, skipped;
-  int skipped_line;   // number of the first skipped line in the file, from 1
-  char *skipped_text; // its text; NULL: no line was skipped
+  size_t header_lines;   // number of lines before the first row
+  SbTextTableRows lines; // rows of the file, and its lines that are not rows of the table
   struct {
-    int index;  // of the file's column; -1: the file has no such column
+    size_t at;  // number of the file's column, from 1; 0: the file has no such column
     char *name; // as the file's header has it
     char *unit; // as the file has it or a key states it; "clock": time of day
     bool clock; // the column has times of day
@@ -113,6 +111,7 @@ typedef struct {
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
 // As sb_measured_load(), from the `length` bytes of a file; data->path is used for messages only.
+// NULL bytes: from the file.
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues);
 

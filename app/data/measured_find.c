@@ -48,12 +48,6 @@ static void range_of(double *low, double *high, const double *value, size_t coun
   }
 }
 
-static void turn_round(double *value, size_t count) {
-  for (size_t i = 0; i < count; i++) {
-    value[i] = -value[i];
-  }
-}
-
 // ---- Cycles ----
 
 // Ends of strokes: rows where the displacement turns by more than a fifth of its range, the first
@@ -112,7 +106,8 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
   g_autoptr(GArray) turns = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
-    const size_t turned = sb_measured_word(data, SB_DATA_DIRECTION, sb_measured_directions, issues);
+    const size_t turned =
+        sb_measured_word(data, SB_DATA_DIRECTION, sb_measured_directions, issues) - 1;
     m->turned_force = (turned & 1) != 0;
     m->turned_displacement = (turned & 2) != 0;
   } else {
@@ -130,11 +125,9 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
           m->displacement[g_array_index(turns, size_t, 1)] < m->displacement[0];
     }
   }
-  if (m->turned_force) {
-    turn_round(m->force, m->count);
-  }
-  if (m->turned_displacement) {
-    turn_round(m->displacement, m->count);
+  for (size_t i = 0; i < m->count; i++) {
+    m->force[i] *= m->turned_force ? -1 : 1;
+    m->displacement[i] *= m->turned_displacement ? -1 : 1;
   }
 }
 
@@ -341,21 +334,21 @@ typedef struct {
 
 static Means means_of(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
   Means means = {0};
-  double sum_x[BINS] = {0}, sum_y[BINS] = {0}, weight[BINS] = {0};
   for (size_t i = begin; i < end; i++) {
     const double share = (m->displacement[i] - low) / (high - low);
     if (share >= 0 && share < 1) {
       const int bin = (int)(share * BINS);
-      sum_x[bin] += share;
-      sum_y[bin] += m->force[i];
-      weight[bin]++;
+      means.x[bin] += share;
+      means.y[bin] += m->force[i];
+      means.weight[bin]++;
     }
   }
   for (int i = 0; i < BINS; i++) {
-    if (weight[i] > 0) {
-      means.x[means.count] = sum_x[i] / weight[i];
-      means.y[means.count] = sum_y[i] / weight[i];
-      means.weight[means.count++] = weight[i];
+    const double weight = means.weight[i];
+    if (weight > 0) {
+      means.x[means.count] = means.x[i] / weight;
+      means.y[means.count] = means.y[i] / weight;
+      means.weight[means.count++] = weight;
     }
   }
   return means;

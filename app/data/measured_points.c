@@ -10,10 +10,9 @@ const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *m, size_t index) {
 // Whether a row is of a sliding stem, and in which way.
 static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
   const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
-  const SbMeasuredStage *d = &m->stage[SB_STAGE_D], *e = &m->stage[SB_STAGE_E];
   const double margin = 0.01 * stroke;
   *way = row >= cycle->turn;
-  const SbMeasuredStage *end = *way ? e : d;
+  const SbMeasuredStage *end = &m->stage[*way ? SB_STAGE_E : SB_STAGE_D];
   return s > margin && s < (end->found ? end->displacement : stroke) - margin;
 }
 

@@ -17,7 +17,7 @@ const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t inde
 // displacement is. Ended by NULL.
 extern const char *const sb_measured_directions[];
 
-// Returns the index in `names` (ended by NULL) of a key's text; 0 for an absent key. Another text
-// is an issue.
+// Returns the number in `names` (ended by NULL) of a key's text, from 1; 0 for an absent key.
+// Another text is an issue.
 size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
                         GPtrArray *issues);

@@ -54,13 +54,11 @@ static bool read_heading(Column *out, SbSeriesKind kind, const SbTextTable *tabl
     }
   }
   const Quantity *q = out->quantity;
-  if (*heading->name == '\0') {
-    return sb_issues_add(issues, name, line, NULL, allowed, "column %zu has no heading",
-                         column + 1);
-  }
   if (q == NULL) {
     return sb_issues_add(issues, name, line, NULL, allowed,
-                         "column %zu: \"%s\" is an unknown quantity", column + 1, heading->name);
+                         *heading->name == '\0' ? "column %zu has no heading"
+                                                : "column %zu: \"%s\" is an unknown quantity",
+                         column + 1, heading->name);
   }
   g_autofree char *none = g_strdup_printf("0 %s", heading->unit);
   g_autofree char *one = g_strdup_printf("1 %s", heading->unit);

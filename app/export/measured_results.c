@@ -19,12 +19,12 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
   sb_json_count(json, "header_lines", m->header_lines);
   sb_json_count(json, "rows", m->count);
   sb_json_count(json, "rows_dropped", m->dropped);
-  sb_json_count(json, "lines_skipped", m->skipped);
+  sb_json_count(json, "lines_skipped", m->lines.skipped);
   sb_json_object(json, "columns");
   for (int c = 0; c < SB_CHANNELS; c++) {
-    if (m->column[c].index >= 0) {
+    if (m->column[c].at > 0) {
       sb_json_object(json, sb_channel_name((SbChannel)c));
-      sb_json_count(json, "column", (guint64)m->column[c].index + 1);
+      sb_json_count(json, "column", m->column[c].at);
       sb_json_string(json, "name", m->column[c].name);
       sb_json_string(json, "unit", m->column[c].unit);
       sb_json_string(json, "how", how_name(m->column[c].how));

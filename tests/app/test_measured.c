@@ -139,7 +139,7 @@ static void test_dialects(void) {
     g_assert_cmpmem(other->time, size, first->time, size);
     g_assert_cmpmem(other->displacement, size, first->displacement, size);
     g_assert_cmpmem(other->force, size, first->force, size);
-    g_assert_cmpuint(other->skipped, ==, 0);
+    g_assert_cmpuint(other->lines.skipped, ==, 0);
   }
   // What is written reads as the number nearest to it.
   char digits[40];

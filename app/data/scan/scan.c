@@ -26,24 +26,14 @@ bool sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, GError **error
 }
 
 static double number_at(const guchar *p, SbScanKind kind) {
-  switch (kind) {
-  case SB_SCAN_U8:
-    return *p;
-  case SB_SCAN_U16:
-    return sb_bytes_u16(p);
-  case SB_SCAN_U32:
-    return sb_bytes_u32(p);
-  case SB_SCAN_FLOAT:
-    return sb_bytes_float(p);
-  case SB_SCAN_I8:
-    return (gint8)*p;
-  case SB_SCAN_I16:
-    return (gint16)sb_bytes_u16(p);
-  case SB_SCAN_I32:
-    return (gint32)sb_bytes_u32(p);
-  default:
-    return sb_bytes_double(p);
-  }
+  return kind == SB_SCAN_U8      ? *p
+         : kind == SB_SCAN_U16   ? sb_bytes_u16(p)
+         : kind == SB_SCAN_U32   ? sb_bytes_u32(p)
+         : kind == SB_SCAN_I8    ? (gint8)*p
+         : kind == SB_SCAN_I16   ? (gint16)sb_bytes_u16(p)
+         : kind == SB_SCAN_I32   ? (gint32)sb_bytes_u32(p)
+         : kind == SB_SCAN_FLOAT ? sb_bytes_float(p)
+                                 : sb_bytes_double(p);
 }
 
 bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,

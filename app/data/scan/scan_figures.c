@@ -133,15 +133,9 @@ SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeights
                          SbReport *report) {
   memset(out, 0, sizeof *out);
   SbStatus status = sb_heights_prepare(&out->done, heights, choices, report);
-  if (status == SB_OK) {
-    status = sb_height_figures(&out->figures, heights, report);
-  }
-  if (status == SB_OK) {
-    status = sb_height_spectrum(&out->spectrum, heights, report);
-  }
-  if (status == SB_OK) {
-    status = find_parts(out, heights, report);
-  }
+  status = status == SB_OK ? sb_height_figures(&out->figures, heights, report) : status;
+  status = status == SB_OK ? sb_height_spectrum(&out->spectrum, heights, report) : status;
+  status = status == SB_OK ? find_parts(out, heights, report) : status;
   if (status == SB_OK) {
     out->scene = sb_asperities_of_moments(out->figures.moment, false);
     find_cutoffs(out, heights);

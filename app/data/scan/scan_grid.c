@@ -21,16 +21,14 @@ typedef struct {
 
 static Axis find_axis(const SbScanText *text, gsize column) {
   const gsize rows = text->matrix.rows;
-  double *value = g_try_new(double, rows);
-  Axis out = {0};
-  for (gsize i = 0; i < rows && value != NULL; i++) {
+  g_autofree double *value = g_try_new(double, rows);
+  bool good = value != NULL;
+  for (gsize i = 0; good && i < rows; i++) {
     value[i] = at(text, i, column);
-    if (!isfinite(value[i])) {
-      g_clear_pointer(&value, g_free);
-    }
+    good = isfinite(value[i]);
   }
-  if (value == NULL) {
-    return out;
+  if (!good) {
+    return (Axis){0};
   }
   qsort(value, rows, sizeof *value, sb_number_compare);
   const double range = value[rows - 1] - value[0];
@@ -45,11 +43,8 @@ static Axis find_axis(const SbScanText *text, gsize column) {
       count++;
     }
   }
-  if (count > 1 && isfinite(range) && most - least <= 2 * uneven_max * most) {
-    out = (Axis){value[0], range / (double)(count - 1), count};
-  }
-  g_free(value);
-  return out;
+  good = count > 1 && isfinite(range) && most - least <= 2 * uneven_max * most;
+  return good ? (Axis){value[0], range / (double)(count - 1), count} : (Axis){0};
 }
 
 bool sb_scan_is_grid(const SbScanText *text) {

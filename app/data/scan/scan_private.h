@@ -58,7 +58,7 @@ typedef struct {
   char *key;     // only its letters and digits, small: "Z Unit" is "zunit"
   char *value;   // as it is in the file
   double number; // with which the value begins; NaN: none
-  char *unit;    // from brackets in the key or after a number; empty: none
+  double unit;   // metres of the one in brackets in the key or after a number; 0: no length
 } SbScanEntry;
 
 // A text file split into the entries of its header and all its numbers.

@@ -13,7 +13,6 @@ static void entry_free(gpointer data) {
   SbScanEntry *entry = data;
   g_free(entry->key);
   g_free(entry->value);
-  g_free(entry->unit);
   g_free(entry);
 }
 
@@ -40,7 +39,7 @@ static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDi
   }
   g_autofree char *key = g_strndup(line, at);
   SbScanEntry *entry = g_new0(SbScanEntry, 1);
-  entry->unit = take_brackets(key);
+  g_autofree char *unit = take_brackets(key);
   g_autofree char *folded = g_utf8_strdown(key, -1);
   GString *plain = g_string_new(NULL);
   for (const char *c = folded; *c != '\0'; c = g_utf8_next_char(c)) {
@@ -53,17 +52,14 @@ static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDi
   entry->value = g_strstrip(g_strdup(line + at + 1));
   const gsize number = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
   entry->number = number > 0 ? entry->number : NAN;
-  if (number > 0 && *entry->unit == '\0') {
-    g_free(entry->unit);
-    entry->unit = g_strstrip(g_strdup(entry->value + number));
-  }
+  entry->unit = sb_scan_length(number > 0 && *unit == '\0' ? entry->value + number : unit);
   g_ptr_array_add(entries, entry);
 }
 
 // Returns the entry of the first of the patterns (separated by |, * for any letters) that the
 // header has; an empty one without.
 static const SbScanEntry *find(const SbScanText *text, const char *patterns) {
-  static const SbScanEntry none = {(char *)"", (char *)"", NAN, (char *)""};
+  static const SbScanEntry none = {(char *)"", (char *)"", NAN, 0};
   g_auto(GStrv) each = g_strsplit(patterns, "|", -1);
   for (char **pattern = each; *pattern != NULL; pattern++) {
     for (guint i = 0; i < text->entries->len; i++) {
@@ -89,9 +85,8 @@ typedef struct {
 
 // A length by itself where it has a unit, else in units of lengths.
 static double length_of(const SbScanEntry *entry, bool *bare) {
-  const double unit = sb_scan_length(entry->unit);
-  *bare |= !isnan(entry->number) && unit == 0;
-  return unit > 0 ? entry->number * unit : entry->number;
+  *bare |= !isnan(entry->number) && entry->unit == 0;
+  return entry->unit > 0 ? entry->number * entry->unit : entry->number;
 }
 
 static Header header_of(const SbScanText *text) {
@@ -117,9 +112,8 @@ static Header header_of(const SbScanText *text) {
   const SbScanEntry *factor = find(
       text, "zfactor|zscale|zscaling|heightfactor|heightscale|factor*|scalefactor|*skalierung*|"
             "höhenfaktor|zfaktor|facteur*|fattore*|bit2nm|*faktor");
-  const double unit = sb_scan_length(factor->unit);
   h.factor = factor->number;
-  h.vertical = unit > 0 && isfinite(h.factor) ? unit : h.vertical;
+  h.vertical = factor->unit > 0 && isfinite(h.factor) ? factor->unit : h.vertical;
   // SPIP's lengths are in nanometres; so are its heights times Bit2nm where no unit is given.
   if (g_ascii_strcasecmp(find(text, "fileformat")->value, "ASCII") == 0) {
     const bool bits = strcmp(factor->key, "bit2nm") == 0;
@@ -214,10 +208,12 @@ static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *
   if (!find_units(&h, out, text, choices, matrix ? h.bare && !spaced : columns > 1, error)) {
     return false;
   }
-  const gsize step = matrix ? 1 : columns; // heights are in the last column
+  // Heights are in the last column; those at the end of single precision mark void points.
+  const gsize step = matrix ? 1 : columns;
+  const double low = 0x1p127 * (1 - 1e-4), high = 0x1p128;
   for (gsize i = step - 1; i < text->matrix.value->len; i += step) {
     double *z = &g_array_index(text->matrix.value, double, i);
-    *z = *z == h.missing ? NAN : *z;
+    *z = *z == h.missing || (fabs(*z) >= low && fabs(*z) <= high) ? NAN : *z;
   }
   if (!(matrix   ? take_matrix(out, text, &h, error)
         : points ? sb_scan_grid(out, text, h.lateral, h.vertical, error)
@@ -229,39 +225,27 @@ static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *
                             "does not state the distance of its points: specify it with --spacing");
 }
 
-// Numbers at the end of single precision mark void points.
-static void drop_voids(GArray *numbers) {
-  const double low = 0x1p127 * (1 - 1e-4), high = 0x1p128;
-  for (guint i = 0; i < numbers->len; i++) {
-    double *value = &g_array_index(numbers, double, i);
-    *value = fabs(*value) >= low && fabs(*value) <= high ? NAN : *value;
-  }
-}
-
 bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
                         GError **error) {
   static const SbTextTableDialect wish = {.matrix = true};
   g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(GPtrArray) entries = g_ptr_array_new_with_free_func(entry_free);
   g_autoptr(SbTextTable) table =
       sb_text_table_parse(bytes.at, (gsize)(bytes.end - bytes.at), &wish, "", issues);
-  SbScanText text = {.entries = g_ptr_array_new_with_free_func(entry_free), .table = table};
+  SbScanText text = {.entries = entries, .table = table};
   const bool read = table != NULL &&
                     sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
   if (!read) {
     const SbIssue *issue = issues->pdata[0];
-    g_ptr_array_unref(text.entries);
     return issue->line > 0
                ? sb_app_error_input(error, "line %d: %s", issue->line, issue->text)
                : sb_app_error_input(
                      error, "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
                      issue->text);
   }
-  drop_voids(text.matrix.value);
-  for (char **line = table->header; *line != NULL && text.entries->len < ENTRIES_MAX; line++) {
-    take_entry(text.entries, *line, &table->dialect);
+  g_autoptr(GArray) numbers = text.matrix.value;
+  for (char **line = table->header; *line != NULL && entries->len < ENTRIES_MAX; line++) {
+    take_entry(entries, *line, &table->dialect);
   }
-  const bool good = read_text(out, &text, choices, error);
-  g_ptr_array_unref(text.entries);
-  g_array_unref(text.matrix.value);
-  return good;
+  return read_text(out, &text, choices, error);
 }

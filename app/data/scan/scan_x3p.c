@@ -15,53 +15,38 @@ enum { XML_MAX = 1 << 20 };
 
 // ---- main.xml ----
 
-// What main.xml holds.
-typedef struct {
-  GString *path;     // of the element that is being read
-  GHashTable *texts; // path after the root, without name spaces, in lower case -> text
-} Main;
-
-// The name behind a name space's colon.
-static const char *local(const char *name) {
-  const char *colon = strchr(name, ':');
-  return colon != NULL ? colon + 1 : name;
-}
-
-static void on_start(GMarkupParseContext *context, const char *element, const char **names,
-                     const char **values, gpointer user, GError **error) {
-  Main *main = user;
-  g_string_append_printf(main->path, "/%s", local(element));
-  if (main->path->len > 1000) {
-    g_set_error_literal(error, G_MARKUP_ERROR, G_MARKUP_ERROR_INVALID_CONTENT, "too deep");
-  }
-}
-
-static void on_end(GMarkupParseContext *context, const char *element, gpointer user,
-                   GError **error) {
-  Main *main = user;
-  g_string_truncate(main->path, (gsize)(strrchr(main->path->str, '/') - main->path->str));
-}
-
+// Takes the text of an element: path after the root, without name spaces, in lower case -> text.
 static void on_text(GMarkupParseContext *context, const char *text, gsize length, gpointer user,
                     GError **error) {
-  Main *main = user;
-  // Behind the root.
-  const char *path = main->path->len > 0 ? strchr(main->path->str + 1, '/') : NULL;
-  g_autofree char *key = path != NULL ? g_ascii_strdown(path + 1, -1) : NULL;
-  if (key != NULL && !g_hash_table_contains(main->texts, key)) {
-    g_hash_table_insert(main->texts, g_steal_pointer(&key), g_strstrip(g_strndup(text, length)));
+  enum { DEPTH = 6 };
+  GHashTable *texts = user;
+  const char *names[DEPTH + 1] = {NULL};
+  int count = 0;
+  // The stack begins with the element itself and ends with the root.
+  for (const GSList *at = g_markup_parse_context_get_element_stack(context);
+       at != NULL && at->next != NULL; at = at->next) {
+    if (count == DEPTH) {
+      return; // deeper than what is read
+    }
+    const char *name = at->data, *colon = strchr(name, ':');
+    names[DEPTH - ++count] = colon != NULL ? colon + 1 : name;
+  }
+  g_autofree char *path = g_strjoinv("/", (char **)names + DEPTH - count);
+  g_autofree char *key = g_ascii_strdown(path, -1);
+  if (!g_hash_table_contains(texts, key)) {
+    g_hash_table_insert(texts, g_steal_pointer(&key), g_strstrip(g_strndup(text, length)));
   }
 }
 
-static const char *text_of(const Main *main, const char *path) {
-  const char *text = g_hash_table_lookup(main->texts, path);
+static const char *text_of(GHashTable *texts, const char *path) {
+  const char *text = g_hash_table_lookup(texts, path);
   return text != NULL ? text : "";
 }
 
 // Number of an element; `missing` without one, NaN with another text.
-static double number(const Main *main, const char *path, double missing) {
-  double value = *text_of(main, path) == '\0' ? missing : NAN;
-  (void)sb_number_parse(&value, text_of(main, path));
+static double number(GHashTable *texts, const char *path, double missing) {
+  double value = *text_of(texts, path) == '\0' ? missing : NAN;
+  (void)sb_number_parse(&value, text_of(texts, path));
   return value;
 }
 
@@ -126,8 +111,8 @@ static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most,
   return out;
 }
 
-static bool read_main(Main *main, zip_t *zip, guint64 packed, GError **error) {
-  static const GMarkupParser parser = {on_start, on_end, on_text, NULL, NULL};
+static bool read_main(GHashTable *texts, zip_t *zip, guint64 packed, GError **error) {
+  static const GMarkupParser parser = {.text = on_text};
   guint64 size = 0;
   g_autofree char *xml = (char *)member(zip, "main.xml", &size, XML_MAX, packed, error);
   if (xml == NULL) {
@@ -144,7 +129,7 @@ static bool read_main(Main *main, zip_t *zip, guint64 packed, GError **error) {
   }
   const guint64 mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
   g_autoptr(GMarkupParseContext) context =
-      g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, main, NULL);
+      g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, texts, NULL);
   g_autoptr(GError) problem = NULL;
   return (g_markup_parse_context_parse(context, xml + mark, (gssize)(size - mark), &problem) &&
           g_markup_parse_context_end_parse(context, &problem)) ||
@@ -152,11 +137,11 @@ static bool read_main(Main *main, zip_t *zip, guint64 packed, GError **error) {
 }
 
 // Even steps along an axis, 'x' or 'y': an incremental one.
-static bool read_step(double *out, const Main *main, char axis, GError **error) {
+static bool read_step(double *out, GHashTable *texts, char axis, GError **error) {
   g_autofree char *type = g_strdup_printf("record1/axes/c%c/axistype", axis);
   g_autofree char *step = g_strdup_printf("record1/axes/c%c/increment", axis);
-  *out = number(main, step, NAN);
-  if (g_ascii_strcasecmp(text_of(main, type), "I") != 0) {
+  *out = number(texts, step, NAN);
+  if (g_ascii_strcasecmp(text_of(texts, type), "I") != 0) {
     return sb_app_error_input(error,
                               "C%c is not an incremental axis: points at any place are not read",
                               g_ascii_toupper(axis));
@@ -165,16 +150,17 @@ static bool read_step(double *out, const Main *main, char axis, GError **error) 
          sb_app_error_input(error, "C%c has no increment above 0", g_ascii_toupper(axis));
 }
 
-static bool read_points(SbScan *out, const Main *main, zip_t *zip, guint64 packed, GError **error) {
+static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 packed,
+                        GError **error) {
   static const char types[] = "ILFD";
   static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
   static const guint64 sizes[] = {2, 4, 4, 8};
-  const char *link = text_of(main, "record3/datalink/pointdatalink");
-  const char *feature = text_of(main, "record1/featuretype"),
-             *type = text_of(main, "record1/axes/cz/datatype");
-  const double columns = number(main, "record3/matrixdimension/sizex", NAN),
-               rows = number(main, "record3/matrixdimension/sizey", 1);
-  const double step = number(main, "record1/axes/cz/increment", 1);
+  const char *link = text_of(texts, "record3/datalink/pointdatalink");
+  const char *feature = text_of(texts, "record1/featuretype"),
+             *type = text_of(texts, "record1/axes/cz/datatype");
+  const double columns = number(texts, "record3/matrixdimension/sizex", NAN),
+               rows = number(texts, "record3/matrixdimension/sizey", 1);
+  const double step = number(texts, "record1/axes/cz/increment", 1);
   if (g_ascii_strcasecmp(feature, "SUR") != 0 && g_ascii_strcasecmp(feature, "PRF") != 0) {
     return sb_app_error_input(error, "has the feature type \"%s\" (allowed SUR, PRF)", feature);
   }
@@ -184,19 +170,19 @@ static bool read_points(SbScan *out, const Main *main, zip_t *zip, guint64 packe
   }
   if (!(columns >= 1 && rows >= 1 && columns * rows <= (double)SB_HEIGHTS_POINTS_MAX)) {
     return sb_app_error_input(error, "has a matrix of \"%s\" x \"%s\" points",
-                              text_of(main, "record3/matrixdimension/sizex"),
-                              text_of(main, "record3/matrixdimension/sizey"));
+                              text_of(texts, "record3/matrixdimension/sizex"),
+                              text_of(texts, "record3/matrixdimension/sizey"));
   }
-  if (number(main, "record3/matrixdimension/sizez", 1) != 1) {
+  if (number(texts, "record3/matrixdimension/sizez", 1) != 1) {
     return sb_app_error_input(error, "has %s layers (allowed 1)",
-                              text_of(main, "record3/matrixdimension/sizez"));
+                              text_of(texts, "record3/matrixdimension/sizez"));
   }
   if (*link == '\0') {
     return sb_app_error_input(error, "has its points in the XML or as a list, which is not read");
   }
   if (!isfinite(step) || step == 0) {
     return sb_app_error_input(error, "CZ has the increment \"%s\"",
-                              text_of(main, "record1/axes/cz/increment"));
+                              text_of(texts, "record1/axes/cz/increment"));
   }
   const guint64 points = (guint64)columns * (guint64)rows, size = points * sizes[known - types];
   guint64 got = 0, valid_got = 0;
@@ -205,8 +191,8 @@ static bool read_points(SbScan *out, const Main *main, zip_t *zip, guint64 packe
   if (data == NULL) {
     return false;
   }
-  if (*text_of(main, "record3/datalink/validpointslink") != '\0') {
-    valid = member(zip, text_of(main, "record3/datalink/validpointslink"), &valid_got, points,
+  if (*text_of(texts, "record3/datalink/validpointslink") != '\0') {
+    valid = member(zip, text_of(texts, "record3/datalink/validpointslink"), &valid_got, points,
                    packed, error);
     if (valid == NULL || valid_got < (points + 7) / 8) {
       return valid != NULL && sb_app_error_input(error, "its valid points are cut short");
@@ -232,14 +218,11 @@ bool sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   zip_t *zip = source != NULL ? zip_open_from_source(source, ZIP_RDONLY, &problem) : NULL;
   bool good = zip != NULL;
   if (good) {
-    Main main = {g_string_new(NULL),
-                 g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free)};
+    g_autoptr(GHashTable) texts = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
     SbHeights *h = &out->heights;
-    good = read_main(&main, zip, packed, error) && read_points(out, &main, zip, packed, error) &&
-           read_step(&h->dx, &main, 'x', error) &&
-           (h->rows == 1 || read_step(&h->dy, &main, 'y', error));
-    g_hash_table_unref(main.texts);
-    g_string_free(main.path, TRUE);
+    good = read_main(texts, zip, packed, error) && read_points(out, texts, zip, packed, error) &&
+           read_step(&h->dx, texts, 'x', error) &&
+           (h->rows == 1 || read_step(&h->dy, texts, 'y', error));
     zip_discard(zip);
   } else {
     zip_source_free(source);
