@@ -243,9 +243,10 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                      error, "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
                      issue->text);
   }
-  g_autoptr(GArray) numbers = text.matrix.value;
   for (char **line = table->header; *line != NULL && entries->len < ENTRIES_MAX; line++) {
     take_entry(entries, *line, &table->dialect);
   }
-  return read_text(out, &text, choices, error);
+  const bool good = read_text(out, &text, choices, error);
+  g_array_unref(text.matrix.value);
+  return good;
 }
