@@ -6,7 +6,6 @@
 #include <dirent.h>
 #include <errno.h>
 #include <fcntl.h>
-#include <glib/gstdio.h>
 #include <stdatomic.h>
 #include <string.h>
 #include <sys/file.h>
@@ -73,12 +72,11 @@ bool sb_output_fail(GError **error, SbAppError kind, const char *path, const cha
   return false;
 }
 
-static bool fail(GError **error, const char *path, int code) {
+bool sb_output_fail_errno(GError **error, const char *path, int code) {
   return sb_output_fail(error, SB_APP_ERROR_IO, path, g_strerror(code));
 }
 
-// Whether a regular file may be replaced: no input, not to be kept, and not write-protected.
-static bool may_replace(const char *path, const struct stat *info, GError **error) {
+bool sb_output_may_replace(const char *path, const struct stat *info, GError **error) {
   bool is_input = false;
   g_mutex_lock(&policy.lock);
   for (guint i = 0; policy.inputs != NULL && i < policy.inputs->len; i++) {
@@ -95,7 +93,7 @@ static bool may_replace(const char *path, const struct stat *info, GError **erro
   }
   int fd = open(path, O_WRONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0) {
-    return fail(error, path, errno);
+    return sb_output_fail_errno(error, path, errno);
   }
   close(fd);
   return true;
@@ -103,8 +101,7 @@ static bool may_replace(const char *path, const struct stat *info, GError **erro
 
 // ---- Folders and temporary files ----
 
-// Where `path` leads when it is a symbolic link, of a file that need not exist. NULL for a loop.
-static char *follow(const char *path) {
+char *sb_output_follow(const char *path) {
   enum { LINKS_MAX = 40 };
   char *at = g_strdup(path);
   for (int i = 0; i < LINKS_MAX; i++) {
@@ -122,8 +119,7 @@ static char *follow(const char *path) {
   return NULL;
 }
 
-// Whether a path means a descriptor that is open already.
-static bool names_descriptor(const char *path) {
+bool sb_output_names_descriptor(const char *path) {
   return strcmp(path, "-") == 0 || g_str_has_prefix(path, "/dev/std") ||
          g_str_has_prefix(path, "/dev/fd/") ||
          (g_str_has_prefix(path, "/proc/") && strstr(path, "/fd/") != NULL);
@@ -186,8 +182,7 @@ static int open_named(char **name, int folder) {
   }
 }
 
-// Without a name if the file system can and /proc can name it later.
-static int open_temporary(char **name, int folder) {
+int sb_output_open_temporary(char **name, int folder) {
   *name = NULL;
   int fd = openat(folder, ".", O_RDWR | O_TMPFILE | O_CLOEXEC, 0666);
   if (fd >= 0) {
@@ -213,15 +208,15 @@ static int open_target(char **name, const char *path, bool own_way, GError **err
     fflush(stdout);
     fd = fcntl(STDOUT_FILENO, F_DUPFD_CLOEXEC, 3);
   } else if (exists && S_ISDIR(info.st_mode)) {
-    fail(error, path, EISDIR);
+    sb_output_fail_errno(error, path, EISDIR);
     return -1;
-  } else if (names_descriptor(path) || (exists && !S_ISREG(info.st_mode))) {
+  } else if (sb_output_names_descriptor(path) || (exists && !S_ISREG(info.st_mode))) {
     fd = open(path, O_WRONLY | O_TRUNC | O_CLOEXEC);
   } else {
-    if (exists && !own_way && !may_replace(path, &info, error)) {
+    if (exists && !own_way && !sb_output_may_replace(path, &info, error)) {
       return -1;
     }
-    g_autofree char *target = follow(path);
+    g_autofree char *target = sb_output_follow(path);
     g_autofree char *folder = target != NULL ? g_path_get_dirname(target) : NULL;
     fd = folder != NULL ? open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC) : -1;
     if (fd >= 0) {
@@ -229,7 +224,7 @@ static int open_target(char **name, const char *path, bool own_way, GError **err
     }
   }
   if (fd < 0) {
-    fail(error, path, errno);
+    sb_output_fail_errno(error, path, errno);
   }
   return fd;
 }
@@ -248,11 +243,11 @@ bool sb_output_begin_at(SbOutput *out, const char *path, bool own_way, bool swee
     if (sweep) {
       sb_output_sweep(out->folder);
     }
-    fd = open_temporary(&out->temporary, out->folder);
+    fd = sb_output_open_temporary(&out->temporary, out->folder);
   }
   out->stream = fd >= 0 ? fdopen(fd, "w+b") : NULL;
   if (out->stream == NULL) {
-    fail(error, path, errno);
+    sb_output_fail_errno(error, path, errno);
     if (fd >= 0) {
       close(fd);
     }
@@ -260,7 +255,7 @@ bool sb_output_begin_at(SbOutput *out, const char *path, bool own_way, bool swee
     return false;
   }
   if (out->temporary != NULL) {
-    g_autofree char *target = follow(path);
+    g_autofree char *target = sb_output_follow(path);
     g_autofree char *in = g_path_get_dirname(target);
     out->written_at = g_build_filename(in, out->temporary, NULL);
   } else {
@@ -284,7 +279,7 @@ bool sb_output_seal(SbOutput *out, GError **error) {
     code = errno;
   }
   if (code != 0) {
-    fail(error, out->path, code);
+    sb_output_fail_errno(error, out->path, code);
     sb_output_abort(out);
   }
   return code == 0;
@@ -403,7 +398,7 @@ bool sb_output_commit_sealed(SbOutput *out, GError **error) {
     code = 0; // the reader of a pipe has read what it wanted
   }
   if (code != 0) {
-    fail(error, out->path, code);
+    sb_output_fail_errno(error, out->path, code);
   }
   sb_output_abort(out);
   return code == 0;
@@ -464,87 +459,4 @@ bool sb_output_is_locked(const char *path) {
     close(fd);
   }
   return locked;
-}
-
-// ---- Before the work ----
-
-// The nearest folder of `path` that exists, itself if it does. Owned by the caller.
-static char *nearest_folder(const char *path) {
-  char *at = g_path_get_dirname(path);
-  while (!g_file_test(at, G_FILE_TEST_EXISTS)) {
-    char *up = g_path_get_dirname(at);
-    g_free(at);
-    at = up;
-  }
-  return at;
-}
-
-// A file without a name is made and dropped, which finds what no permission tells.
-static int try_folder(const char *folder) {
-  int in = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
-  char *name = NULL;
-  int fd = in >= 0 ? open_temporary(&name, in) : -1;
-  int code = fd >= 0 ? 0 : errno;
-  if (name != NULL) {
-    unlinkat(in, name, 0);
-    g_free(name);
-  }
-  if (fd >= 0) {
-    close(fd);
-  }
-  if (in >= 0) {
-    close(in);
-  }
-  return code;
-}
-
-bool sb_output_check(SbOutputCheck *check, const char *path, bool makes_folder, GError **error) {
-  struct stat info;
-  if (path == NULL || names_descriptor(path) ||
-      (stat(path, &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))) {
-    return true;
-  }
-  bool exists = stat(path, &info) == 0;
-  if (exists && S_ISDIR(info.st_mode)) {
-    return fail(error, path, EISDIR);
-  }
-  if (exists && !may_replace(path, &info, error)) {
-    return false;
-  }
-  char *target = follow(path);
-  if (target == NULL) {
-    return fail(error, path, errno);
-  }
-  // A file is known by its inode, one that is not there yet by its folder and name.
-  g_autofree char *folder = makes_folder ? nearest_folder(target) : g_path_get_dirname(target);
-  g_autofree char *whole = g_canonicalize_filename(target, NULL);
-  char *identity = NULL;
-  int code = try_folder(folder);
-  if (code != 0) {
-    fail(error, makes_folder ? folder : path, code);
-  } else if (exists) {
-    identity = g_strdup_printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "", (guint64)info.st_dev,
-                               (guint64)info.st_ino);
-  } else if (stat(folder, &info) == 0) {
-    g_autofree char *in = g_canonicalize_filename(folder, NULL);
-    identity =
-        g_strdup_printf("%" G_GUINT64_FORMAT " %" G_GUINT64_FORMAT "%s", (guint64)info.st_dev,
-                        (guint64)info.st_ino, whole + (strcmp(in, "/") == 0 ? 0 : strlen(in)));
-  }
-  if (check->targets == NULL) {
-    check->targets = g_ptr_array_new_with_free_func(g_free);
-  }
-  bool good = identity != NULL;
-  if (good && g_ptr_array_find_with_equal_func(check->targets, identity, g_str_equal, NULL)) {
-    good = sb_output_fail(error, SB_APP_ERROR_INPUT, path, "two outputs would go to this file");
-  }
-  if (identity != NULL) {
-    g_ptr_array_add(check->targets, identity);
-  }
-  g_free(target);
-  return good;
-}
-
-void sb_output_check_clear(SbOutputCheck *check) {
-  g_clear_pointer(&check->targets, g_ptr_array_unref);
 }

@@ -4,11 +4,11 @@
 // solid, differing in lightness; laws and literature are dashed grey; single values are ringed
 // dots. The range follows what was solved: a closed form that leaves it is clipped.
 #include "app/chart/study.h"
+
 #include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
-#include "app/draw/axis.h"
-#include "app/draw/label.h"
+#include "app/chart/study_private.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -98,7 +98,7 @@ static int style_index(const SbStudy *study, const SbStudySeries *series) {
   return 0;
 }
 
-static SbStroke series_look(const SbStudy *study, const SbStudySeries *series) {
+SbStroke sb_study_series_look(const SbStudy *study, const SbStudySeries *series) {
   static const SbRole solved[] = {SB_ROLE_INK, SB_ROLE_VIOLET, SB_ROLE_TEAL, SB_ROLE_FLUID};
   static const SbDash *const dashes[] = {&sb_dash_reference, &sb_dash_pinned, &sb_dash_dimension,
                                          &sb_dash_centre, &sb_dash_dose};
@@ -125,27 +125,17 @@ static SbStroke series_look(const SbStudy *study, const SbStudySeries *series) {
 
 enum { NARROW = 300 }; // below it curves are named in the plot, not beside it
 
-typedef struct {
-  SbCanvas *canvas;
-  const SbStudy *study;
-  const SbStudyPanel *panel;
-  SbLabels *labels;
-  SbAxes at;
-  double x_unit, x_zero, y_unit; // shown per SI, what 0 in SI is shown as
-  bool empty;                    // no value at all: no range to tell either
-} Plot;
-
 static double unit_of(const SbStudyAxis *axis) {
   return sb_quantity_to_shown(1, axis->si, axis->unit) -
          sb_quantity_to_shown(0, axis->si, axis->unit);
 }
 
 // The abscissa alone may be a point of a scale (degC).
-static double x_shown(const Plot *plot, double x) {
+static double x_shown(const SbStudyPlot *plot, double x) {
   return x * plot->x_unit + plot->x_zero;
 }
 
-static bool usable(const Plot *plot, double x, double y) {
+static bool usable(const SbStudyPlot *plot, double x, double y) {
   return isfinite(x) && isfinite(y) && (x > 0 || !plot->study->x.logarithmic) &&
          (y > 0 || !plot->panel->y.logarithmic);
 }
@@ -160,7 +150,7 @@ static void span_add(Span *span, double value) {
 }
 
 // Ranges in shown units. A reference may widen the range of the rest by a third and no more.
-static void set_scales(Plot *plot) {
+static void set_scales(SbStudyPlot *plot) {
   Span x = {INFINITY, -INFINITY}, y = x, all = x;
   for (size_t s = 0; s < plot->panel->series_count; s++) {
     const SbStudySeries *series = &plot->panel->series[s];
@@ -221,7 +211,7 @@ static void set_scales(Plot *plot) {
 }
 
 // Makes room for the numbers of the upright axis, whose range does not depend on the plot's width.
-static void fit_numbers(Plot *plot) {
+static void fit_numbers(SbStudyPlot *plot) {
   SbTextStyle label = sb_canvas_style(plot->canvas, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   char text[SB_FORMAT_MAX];
   const double left = plot->at.plot.x;
@@ -235,7 +225,7 @@ static void fit_numbers(Plot *plot) {
   set_scales(plot);
 }
 
-static void draw_axes(Plot *plot) {
+static void draw_axes(SbStudyPlot *plot) {
   const SbStudyAxis *axis = &plot->study->x;
   g_autofree char *title = g_strdup_printf("%s%s%s", sb_translation(axis->quantity),
                                            axis->unit[0] ? " / " : "", sb_translation(axis->unit));
@@ -244,7 +234,7 @@ static void draw_axes(Plot *plot) {
   plot->at.x_name = NULL;
 }
 
-static void draw_marks(Plot *plot) {
+static void draw_marks(SbStudyPlot *plot) {
   SbCanvas *c = plot->canvas;
   SbRect r = plot->at.plot;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
@@ -271,7 +261,7 @@ static void draw_marks(Plot *plot) {
 }
 
 // Pixels of a series, gaps kept as points that are not finite. Owned by the caller (g_free).
-static SbPoint *series_points(const Plot *plot, const SbStudySeries *series) {
+static SbPoint *series_points(const SbStudyPlot *plot, const SbStudySeries *series) {
   SbPoint *out = g_new(SbPoint, series->count + 1);
   for (size_t i = 0; i < series->count; i++) {
     bool good = usable(plot, series->x[i], series->y[i]);
@@ -281,17 +271,17 @@ static SbPoint *series_points(const Plot *plot, const SbStudySeries *series) {
   return out;
 }
 
-static bool inside(const Plot *plot, SbPoint p) {
+bool sb_study_inside(const SbStudyPlot *plot, SbPoint p) {
   return isfinite(p.x) && isfinite(p.y) && p.y >= plot->at.plot.y - 3 &&
          p.y <= plot->at.plot.y + plot->at.plot.height + 3;
 }
 
-static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *points) {
+static void draw_series(SbStudyPlot *plot, const SbStudySeries *series, const SbPoint *points) {
   SbCanvas *c = plot->canvas;
-  SbStroke look = series_look(plot->study, series);
+  SbStroke look = sb_study_series_look(plot->study, series);
   if (series->style == SB_STUDY_DOTS) {
     for (size_t i = 0; i < series->count; i++) {
-      if (inside(plot, points[i])) {
+      if (sb_study_inside(plot, points[i])) {
         sb_canvas_ringed_dot(c, points[i].x, points[i].y, sb_canvas_role(c, look.role));
       }
     }
@@ -315,75 +305,6 @@ static void draw_series(Plot *plot, const SbStudySeries *series, const SbPoint *
     }
   }
   cairo_restore(c->cr);
-}
-
-// ---------------------------------------------------------------------------------------------------
-// Names of the curves
-
-typedef struct {
-  const SbStudySeries *series;
-  SbPoint end;
-} Name;
-
-static int by_height(const void *a, const void *b) {
-  double d = ((const Name *)a)->end.y - ((const Name *)b)->end.y;
-  return d < 0 ? -1 : d > 0;
-}
-
-static void draw_gutter(Plot *plot, Name *name, int count, double width) {
-  SbCanvas *c = plot->canvas;
-  SbRect r = plot->at.plot;
-  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  double y[SB_STUDY_SERIES];
-  qsort(name, (size_t)count, sizeof *name, by_height);
-  for (int i = 0; i < count; i++) {
-    y[i] = name[i].end.y;
-  }
-  sb_labels_spread(y, count, 14, r.y - 4, r.y + r.height);
-  double x = r.x + r.width + 20;
-  for (int i = 0; i < count; i++) {
-    SbStroke look = series_look(plot->study, name[i].series);
-    sb_canvas_line(c, (SbStroke){look.role, 1, look.dash}, name[i].end.x + 4, name[i].end.y, x - 4,
-                   y[i]);
-    g_autofree char *shown = sb_translation_of_case(name[i].series->name);
-    sb_canvas_text_fit_ends(c, shown, &style, x, y[i] + 4.3, width - 22);
-  }
-}
-
-// Returns the number of curves that can be seen. Without a gutter all names go into the plot.
-static int name_series(Plot *plot, SbPoint **points, double gutter) {
-  SbCanvas *c = plot->canvas;
-  SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_INK);
-  Name name[SB_STUDY_SERIES];
-  int count = 0, named = 0;
-  double far = plot->at.plot.x + 0.86 * plot->at.plot.width;
-  for (size_t s = 0; s < plot->panel->series_count; s++) {
-    const SbStudySeries *series = &plot->panel->series[s];
-    size_t last = series->count;
-    while (last > 0 && !inside(plot, points[s][last - 1])) {
-      last--;
-    }
-    if (last == 0) {
-      continue;
-    }
-    named++;
-    SbPoint end = points[s][last - 1];
-    if (end.x >= far && gutter > 0) {
-      name[count++] = (Name){series, end};
-      continue;
-    }
-    const SbPlace places[] = {{end.x + 7, end.y + 4, SB_LEFT},   {end.x + 5, end.y - 7, SB_LEFT},
-                              {end.x + 5, end.y + 15, SB_LEFT},  {end.x, end.y - 9, SB_MIDDLE},
-                              {end.x - 6, end.y - 6, SB_RIGHT},  {end.x - 6, end.y + 14, SB_RIGHT},
-                              {end.x + 14, end.y - 20, SB_LEFT}, {end.x + 14, end.y + 28, SB_LEFT},
-                              {end.x, end.y - 22, SB_RIGHT},     {end.x, end.y + 30, SB_RIGHT}};
-    g_autofree char *shown = sb_translation_of_case(series->name);
-    sb_labels_put(plot->labels, c, shown, &style, places, G_N_ELEMENTS(places));
-  }
-  if (count > 0) {
-    draw_gutter(plot, name, count, gutter);
-  }
-  return named;
 }
 
 // "Force / N", smaller where it is too long.
@@ -412,7 +333,7 @@ static double gutter_of(SbCanvas *c, const SbStudyPanel *panel, double width) {
 }
 
 // The axes, curves and marks of a panel; without a curve the reason.
-static void draw_plot(Plot *plot, double pad, double gutter) {
+static void draw_plot(SbStudyPlot *plot, double pad, double gutter) {
   SbCanvas *c = plot->canvas;
   const SbStudyPanel *panel = plot->panel;
   const SbRect r = plot->at.plot, card = plot->at.card;
@@ -431,7 +352,7 @@ static void draw_plot(Plot *plot, double pad, double gutter) {
     }
   }
   draw_marks(plot);
-  if (name_series(plot, points, gutter) == 0) {
+  if (sb_study_name_series(plot, points, gutter) == 0) {
     const SbTextStyle note = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_SECOND);
     const char *empty = sb_translation(panel->empty);
     double half = fmin(sb_canvas_text_width(c, empty, &note), card.width - 2 * pad) / 2;
@@ -450,7 +371,7 @@ static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t in
   sb_canvas_panel(c, rect);
   panel_title(c, rect, pad, &panel->y);
   SbLabels *labels = g_new(SbLabels, 1);
-  Plot plot = {
+  SbStudyPlot plot = {
       .canvas = c,
       .study = study,
       .panel = panel,

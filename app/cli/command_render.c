@@ -1,38 +1,12 @@
 // sealbench render: a view of a scene as a picture, a film or a sequence of pictures.
 #include "app/cli/cli.h"
 
-#include "app/base/output.h"
-#include "app/export/formats.h"
-#include "app/export/render_movie.h"
-#include "app/export/studies.h"
-#include "app/section/painter.h"
+#include "app/cli/render_private.h"
 #include "app/session/pin_names.h"
 
 #include <limits.h>
-#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
-
-// The options as they were given; texts are owned.
-typedef struct {
-  char *output, *format, *view, *size, *at, *fps, *duration, *speed, *from, *to, *backend;
-  char *field, *field_max, *insets, *zoom, *azimuth, *elevation, *measured;
-  char **settings;
-  gboolean dark, full, undeformed, no_pins;
-} Options;
-
-// What they mean.
-typedef struct {
-  SbRenderOptions how;
-  SbRenderMovie movie;
-  SbSectionZoom zoom;
-  SbGlBackend backend;
-  const SbExportFormat *format; // NULL: a sequence
-  const Options *options;
-  bool film, sequence, vector, is_study;
-  SbStudyKind study;
-  char *name; // of a picture in its file's folder: "section.png"; NULL: -o names it
-} Request;
 
 // The runs of kept designs, drawn beside the file's.
 typedef struct {
@@ -40,200 +14,8 @@ typedef struct {
   char *name[SB_CHART_PINS];
 } Pins;
 
-// "1280x720", or a size with a name.
-static bool parse_size(double *width, double *height, const char *text) {
-  size_t count;
-  const SbRenderSize *sizes = sb_render_sizes(&count);
-  for (size_t i = 0; i < count; i++) {
-    if (g_ascii_strcasecmp(text, sizes[i].name) == 0) {
-      *width = sizes[i].width;
-      *height = sizes[i].height;
-      return true;
-    }
-  }
-  char *end = NULL;
-  long w = strtol(text, &end, 10);
-  bool good = end != text && *end == 'x' && g_ascii_isdigit(end[1]);
-  long h = good ? strtol(end + 1, &end, 10) : 0;
-  if (!good || *end != '\0' || w < 1 || h < 1 || w > 100000 || h > 100000) {
-    sb_cli_fail("--size: \"%s\" is not WIDTHxHEIGHT, 720p, 1080p, 4k or report", text);
-    return false;
-  }
-  *width = (double)w;
-  *height = (double)h;
-  return true;
-}
-
-// The film's own options.
-static bool parse_film(Request *request, const Options *options) {
-  SbRenderMovie *movie = &request->movie;
-  bool moves = request->film || request->sequence;
-  if (moves && options->at != NULL) {
-    sb_cli_fail("--at: a movie shows the full cycle (--from and --to select a part)");
-    return false;
-  }
-  if (!moves && (options->fps != NULL || options->duration != NULL || options->speed != NULL ||
-                 options->from != NULL || options->to != NULL)) {
-    g_autofree char *films = sb_export_endings(1 << SB_FORMAT_FILM, 0, ", ", " or ");
-    sb_cli_fail("--fps, --duration, --speed, --from and --to are for movies (%s) and sequences",
-                films);
-    return false;
-  }
-  if (options->duration != NULL && options->speed != NULL) {
-    sb_cli_fail("--duration and --speed exclude each other");
-    return false;
-  }
-  movie->fps = 30;
-  movie->duration = 10;
-  movie->speed = 1;
-  if (!sb_cli_quantity(&movie->fps, "--fps", options->fps, false, "1", "") ||
-      !sb_cli_quantity(&movie->duration, "--duration", options->duration, false, "s", "s") ||
-      !sb_cli_quantity(&movie->speed, "--speed", options->speed, false, "1", "")) {
-    return false;
-  }
-  if (!(movie->fps > 0 && movie->duration > 0 && movie->speed > 0)) {
-    sb_cli_fail("--fps, --duration and --speed must be positive");
-    return false;
-  }
-  const int most = request->film ? sb_movie_fps_max(request->format->film) : INT_MAX;
-  if (movie->fps > most) {
-    sb_cli_fail("--fps: %g is too fast for %s (allowed at most %d)", movie->fps,
-                request->format->ending, most);
-    return false;
-  }
-  if (options->speed == NULL) {
-    movie->speed = 0;
-  }
-  movie->from = options->from;
-  movie->to = options->to;
-  return true;
-}
-
-// Whether -o and --format go together for `files` files.
-static bool check_target(const Options *options, int files) {
-  const bool stream = strcmp(options->output, "-") == 0;
-  g_autofree char *names = sb_export_endings(SB_FORMAT_ALL, 1, ", ", " or ");
-  if (files > 1) {
-    const bool named = stream || sb_export_format(options->output) != NULL;
-    if (named && !g_file_test(options->output, G_FILE_TEST_IS_DIR)) {
-      sb_cli_fail("-o: %s: %d files need a folder; --format chooses %s", options->output, files,
-                  names);
-      return false;
-    }
-  } else if (stream && options->format == NULL) {
-    sb_cli_fail("--format is missing: -o - needs %s", names);
-    return false;
-  } else if (!stream && options->format != NULL) {
-    sb_cli_fail("--format is for -o - and for several files; the ending of a file chooses it");
-    return false;
-  }
-  return true;
-}
-
-// Where the bytes go, of `files` files, and their format.
-static bool parse_output(Request *request, const Options *options, int files) {
-  if (!check_target(options, files)) {
-    return false;
-  }
-  const bool stream = strcmp(options->output, "-") == 0;
-  const SbExportFormat *format = sb_export_format(options->output);
-  if (stream || files > 1) {
-    g_autofree char *ending =
-        g_strconcat(".", options->format != NULL ? options->format : "png", NULL);
-    format = sb_export_format(ending);
-    if (format == NULL || strlen(format->ending) != strlen(ending)) {
-      g_autofree char *names = sb_export_endings(SB_FORMAT_ALL, 1, "|", "|");
-      sb_cli_unknown("--format: there is no", options->format, names, NULL);
-      return false;
-    }
-    request->how.ending = stream ? format->ending : NULL;
-    request->name = files > 1 ? g_strconcat(request->how.view, format->ending, NULL) : NULL;
-  } else {
-    request->sequence = sb_render_is_sequence(options->output);
-  }
-  if (format == NULL && !request->sequence) {
-    g_autofree char *endings = sb_export_endings(SB_FORMAT_ALL, 0, ", ", " or ");
-    sb_cli_fail("-o: %s: the ending must be %s", options->output, endings);
-    return false;
-  }
-  request->format = request->sequence ? NULL : format;
-  request->film = !request->sequence && format->kind == SB_FORMAT_FILM;
-  request->vector = !request->sequence && format->kind == SB_FORMAT_DRAWING;
-  const char *missing = request->film ? sb_movie_missing(format->film) : NULL;
-  if (missing != NULL) {
-    sb_cli_fail("-o: %s: %s", format->ending, missing);
-    return false;
-  }
-  return true;
-}
-
-static void refuse_view(const char *view) {
-  size_t count;
-  const SbRenderView *views = sb_render_views(&count);
-  g_autoptr(GString) names = g_string_new(views[0].name);
-  for (size_t i = 1; i < count + SB_STUDY_COUNT; i++) {
-    g_string_append_printf(names, "|%s",
-                           i < count ? views[i].name : sb_study_name((SbStudyKind)(i - count)));
-  }
-  sb_cli_unknown("--view: there is no view", view, names->str, "see sealbench list views");
-}
-
-static bool parse(Request *request, const Options *options, int files) {
-  SbRenderOptions *how = &request->how;
-  if (options->output == NULL) {
-    sb_cli_fail("-o is missing: the picture or movie to write");
-    return false;
-  }
-  how->view = options->view != NULL ? options->view : "section";
-  how->dark = options->dark;
-  how->at = options->at;
-  request->is_study = sb_study_from_name(&request->study, how->view);
-  if (!request->is_study && sb_render_view(how->view) == NULL) {
-    refuse_view(how->view);
-    return false;
-  }
-  if (options->size != NULL && !parse_size(&how->width, &how->height, options->size)) {
-    return false;
-  }
-  if (!parse_output(request, options, files)) {
-    return false;
-  }
-  if (request->is_study && (request->film || request->sequence)) {
-    g_autofree char *stills =
-        sb_export_endings(1 << SB_FORMAT_PICTURE | 1 << SB_FORMAT_DRAWING, 0, ", ", " or ");
-    sb_cli_fail("--view %s is a study, which does not move: write a %s", how->view, stills);
-    return false;
-  }
-  if (options->at != NULL && options->at[0] == '\0') {
-    sb_cli_fail("--at: neither a stage (A to F) nor a time");
-    return false;
-  }
-  if (request->is_study && options->at != NULL) {
-    sb_cli_fail("--at: a study has no time");
-    return false;
-  }
-  if (!parse_film(request, options)) {
-    return false;
-  }
-  if (options->zoom != NULL) {
-    bool inner = strcmp(options->zoom, "inner") == 0;
-    if (!inner && strcmp(options->zoom, "outer") != 0) {
-      sb_cli_unknown("--zoom: there is no seal", options->zoom, "outer|inner", NULL);
-      return false;
-    }
-    request->zoom = inner ? SB_SECTION_ZOOM_INNER : SB_SECTION_ZOOM_OUTER;
-  }
-  int backend = options->backend != NULL ? sb_gl_backend_find(options->backend) : SB_GL_AUTO;
-  if (backend < 0) {
-    sb_cli_unknown("--backend: there is no back end", options->backend, "osmesa|egl", NULL);
-    return false;
-  }
-  request->backend = (SbGlBackend)backend;
-  return true;
-}
-
 // --set, and behind it the options that are short for a key. Free with g_strfreev().
-static char **all_settings(const Options *options) {
+static char **all_settings(const SbRenderArguments *options) {
   GPtrArray *all = g_ptr_array_new();
   for (char **p = options->settings; p != NULL && *p != NULL; p++) {
     g_ptr_array_add(all, g_strdup(*p));
@@ -276,7 +58,7 @@ static SbStatus compute(SbRun **run, const SbModel *model, const SbRenderView *v
 
 // Computes the first saved designs if the view shows them, and prints a note on those that it
 // omits. A design that cannot be computed is reported and omitted. Returns an exit code.
-static int compute_pins(Pins *pins, const SbDocument *document, Request *request) {
+static int compute_pins(Pins *pins, const SbDocument *document, SbRenderRequest *request) {
   const size_t count = sb_document_pin_count(document);
   SbRenderOptions *how = &request->how;
   g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -310,7 +92,7 @@ static void pins_clear(Pins *pins) {
 }
 
 // The film or sequence, with its own progress.
-static int render_film(const SbRun *run, Request *request, const char *output) {
+static int render_film(const SbRun *run, SbRenderRequest *request, const char *output) {
   SbProgress progress;
   sb_progress_start(&progress, "drawing ");
   request->movie.hooks = (SbMovieHooks){on_picture, sb_cli_interrupted, &progress};
@@ -355,7 +137,7 @@ static void remove_folder(const char *output, const char *root, bool root_was_th
 }
 
 // Makes the folder of one of several files, when there is something to put into it.
-static bool make_folder(const Request *request, const char *output, GError **error) {
+static bool make_folder(const SbRenderRequest *request, const char *output, GError **error) {
   g_autofree char *path = g_path_get_dirname(output);
   SbOutputFolder *folder = NULL;
   bool good = request->name == NULL || sb_output_folder_open(&folder, path, NULL, error);
@@ -364,7 +146,7 @@ static bool make_folder(const Request *request, const char *output, GError **err
 }
 
 // A study needs no run.
-static int render_study(const Request *request, SbDocument *document, const SbModel *model,
+static int render_study(const SbRenderRequest *request, SbDocument *document, const SbModel *model,
                         const char *output) {
   const SbRenderOptions *options = &request->how;
   g_autofree SbStudy *study = g_new(SbStudy, 1);
@@ -392,7 +174,7 @@ static int render_study(const Request *request, SbDocument *document, const SbMo
 
 // Draws the finished run; an exit code.
 static int render(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
-                  Request *request, const char *output) {
+                  SbRenderRequest *request, const char *output) {
   // Vectors need no GL, and views without a section do not either.
   bool use_gl = !request->vector && sb_render_view(request->how.view)->section;
   SbSectionPainter *painter = NULL;
@@ -443,7 +225,7 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
 
 // Checks before the work whether all outputs can be written. Returns an exit code.
 static int check_outputs(const SbCliFiles *files, void *data) {
-  const Request *request = data;
+  const SbRenderRequest *request = data;
   const char *output = request->options->output;
   if (request->name != NULL) {
     g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
@@ -465,8 +247,8 @@ static int check_outputs(const SbCliFiles *files, void *data) {
 
 // Computes and draws one file; an exit code.
 static int render_file(SbCliFiles *files, const SbCliFile *file, void *data) {
-  Request request = *(const Request *)data;
-  const Options *options = request.options;
+  SbRenderRequest request = *(const SbRenderRequest *)data;
+  const SbRenderArguments *options = request.options;
   const SbModel *model = file->model;
   if (!sb_cli_has_memory(request.is_study ? NULL : model)) {
     return SB_EXIT_IO;
@@ -510,7 +292,7 @@ static int render_file(SbCliFiles *files, const SbCliFile *file, void *data) {
 }
 
 // Renders the files of the command line. Returns the exit code.
-static int render_files(Request *request, int argc, char **argv) {
+static int render_files(SbRenderRequest *request, int argc, char **argv) {
   g_auto(GStrv) settings = all_settings(request->options);
   const SbCliFilesWork work = {settings, request->options->output, NULL, check_outputs, render_file,
                                request};
@@ -520,7 +302,7 @@ static int render_files(Request *request, int argc, char **argv) {
 }
 
 int sb_command_render(int argc, char **argv) {
-  Options options = {0};
+  SbRenderArguments options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
        "Picture (.png, .svg, .pdf), movie (.mp4), animation (.webp, .apng, .gif) or sequence "
@@ -573,9 +355,9 @@ int sb_command_render(int argc, char **argv) {
       {"dark", 0, 0, G_OPTION_ARG_NONE, &options.dark, "Dark theme", NULL},
       {0},
   };
-  Request request = {.options = &options};
+  SbRenderRequest request = {.options = &options};
   return sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL) &&
-                 parse(&request, &options, argc - 1)
+                 sb_render_parse(&request, &options, argc - 1)
              ? render_files(&request, argc, argv)
              : SB_EXIT_INPUT;
 }

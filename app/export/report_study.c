@@ -4,41 +4,26 @@
 
 #include "app/base/figure_text.h"
 #include "app/base/number.h"
-#include "app/chart/samples.h"
-#include "app/chart/study.h"
+#include "app/export/report_study_private.h"
 #include "app/export/study_results.h"
 #include "engine/numeric/statistics.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 #define DASH "\xe2\x80\x93"
 
-enum { CHARTS = 24, GRID_ROWS = 120 };
+enum { GRID_ROWS = 120 };
 
-typedef struct {
-  const SbReportStudy *of;
-  const SbStudyFile *study;
-  const SbAnswers *answers;
-  char *files;
-  SbStudy *curves;    // of a grid; NULL: none
-  size_t tornados;    // made before anything is drawn
-  SbTornado *tornado; // [tornados]
-  GPtrArray *names;   // of char *, that they borrow
-  SbStatus status;    // of what statistics ended with
-} Study;
-
-static int figure_at(const Study *study, size_t k) {
+int sb_report_study_figure(const SbReportStudyParts *study, size_t k) {
   return g_array_index(study->study->figures, int, k);
 }
 
-static const SbVary *vary_at(const Study *study, size_t k) {
+const SbVary *sb_report_study_vary(const SbReportStudyParts *study, size_t k) {
   return &g_array_index(study->study->vary, SbVary, k);
 }
 
-// "Section diameter, outer" of a parameter, a variable's name. Owned by the caller.
-static char *vary_label(const SbVary *vary) {
+char *sb_report_study_vary_label(const SbVary *vary) {
   if (vary->id == SB_VARY_VARIABLE) {
     return g_strdup(sb_vary_name(vary));
   }
@@ -47,7 +32,7 @@ static char *vary_label(const SbVary *vary) {
   return g_strconcat(param->label, of, NULL);
 }
 
-static bool is_drawn(const Study *study) {
+static bool is_drawn(const SbReportStudyParts *study) {
   return study->study->method != SB_METHOD_RELIABILITY;
 }
 
@@ -55,8 +40,7 @@ static char *shown(int figure, double value) {
   return isfinite(value) ? sb_figure_format(figure, value, NAN) : g_strdup(DASH);
 }
 
-// The limit on a figure, open without one.
-static SbLimit limit_on(const Study *study, int figure) {
+SbLimit sb_report_study_limit(const SbReportStudyParts *study, int figure) {
   const SbLimits *limits = &study->study->limits;
   for (size_t i = 0; i < limits->count; i++) {
     if (limits->item[i].figure == figure) {
@@ -69,7 +53,7 @@ static SbLimit limit_on(const Study *study, int figure) {
 // ---- First page ----
 
 // "5.2 % (4.1 to 6.5 %)", or in millionths. Owned by the caller.
-static char *probability_text(const Study *study, const SbLimitShare *share) {
+static char *probability_text(const SbReportStudyParts *study, const SbLimitShare *share) {
   const bool rare = study->study->method == SB_METHOD_RELIABILITY;
   const double unit = rare ? 1e6 : 100;
   if (isnan(share->probability)) {
@@ -86,7 +70,7 @@ static char *probability_text(const Study *study, const SbLimitShare *share) {
   return g_strdup_printf("%s\xc2\xa0%s (%s to %s)", p, name, low, high);
 }
 
-static void draw_limits(SbReportPages *pages, Study *study) {
+static void draw_limits(SbReportPages *pages, SbReportStudyParts *study) {
   static const SbTableColumn columns[] = {
       {.label = "Limit on", .width = 4},
       {.label = "Limit", .width = 1.6},
@@ -129,7 +113,7 @@ static void draw_limits(SbReportPages *pages, Study *study) {
                  SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
 }
 
-static void draw_statistics(SbReportPages *pages, Study *study) {
+static void draw_statistics(SbReportPages *pages, SbReportStudyParts *study) {
   static const SbTableColumn columns[] = {
       {.label = "Figure", .width = 3.6},    {.label = "Mean", .width = 1.3},
       {.label = "Deviation", .width = 1.3}, {.label = "Least", .width = 1.3},
@@ -138,7 +122,7 @@ static void draw_statistics(SbReportPages *pages, Study *study) {
   g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   sb_report_heading(pages, "Figures over the samples", 80);
   for (size_t k = 0; k < study->answers->figures; k++) {
-    const int figure = figure_at(study, k);
+    const int figure = sb_report_study_figure(study, k);
     SbSummaryOfSamples of;
     SbReport report = {0};
     const SbStatus status = sb_samples_summary(
@@ -160,7 +144,7 @@ static void draw_statistics(SbReportPages *pages, Study *study) {
 }
 
 // Which samples are outside the validity of their models.
-static void draw_warnings(SbReportPages *pages, const Study *study) {
+static void draw_warnings(SbReportPages *pages, const SbReportStudyParts *study) {
   size_t count = 0;
   g_autofree SbCodeCount *codes = sb_study_warnings(&count, study->answers);
   g_autoptr(GString) text = g_string_new("Warnings of validity: ");
@@ -211,7 +195,7 @@ static char *distribution_text(const SbVary *vary) {
   }
 }
 
-static void draw_varied(SbReportPages *pages, const Study *study) {
+static void draw_varied(SbReportPages *pages, const SbReportStudyParts *study) {
   static const SbTableColumn columns[] = {{.label = "Varied parameters", .width = 3.4},
                                           {.label = "In the scene", .width = 1.6},
                                           {.label = "How", .width = 5}};
@@ -221,8 +205,8 @@ static void draw_varied(SbReportPages *pages, const Study *study) {
   // A grid of several lines may have several lines of one parameter.
   guint grid = 0;
   for (guint k = 0; k < (file->lines != NULL ? file->lines->len : file->vary->len); k++) {
-    const SbVary *vary =
-        file->lines != NULL ? &g_array_index(file->lines, SbVary, k) : vary_at(study, k);
+    const SbVary *vary = file->lines != NULL ? &g_array_index(file->lines, SbVary, k)
+                                             : sb_report_study_vary(study, k);
     if (file->lines != NULL && vary->grid != grid) {
       sb_table_note(table, "Grid %u, %zu samples", vary->grid,
                     sb_study_grid_samples(file, vary->grid));
@@ -239,7 +223,7 @@ static void draw_varied(SbReportPages *pages, const Study *study) {
   sb_report_table(pages, table);
 }
 
-static void draw_leakage(SbReportPages *pages, Study *study) {
+static void draw_leakage(SbReportPages *pages, SbReportStudyParts *study) {
   SbLeakageOdds odds;
   SbReport report = {0};
   if (study->study->leakage_tests == 0) {
@@ -259,184 +243,17 @@ static void draw_leakage(SbReportPages *pages, Study *study) {
   sb_report_text(pages, text, SB_TYPE_LABEL, 400, SB_ROLE_INK);
 }
 
-// ---- Pictures ----
-
-static void draw_histogram(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
-  sb_histogram_draw(cr, rect, theme, of);
-}
-
-static void draw_tornado(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
-  sb_tornado_draw(cr, rect, theme, of);
-}
-
-static void draw_histograms(SbReportPages *pages, const Study *study) {
-  const size_t count = MIN(study->answers->figures, CHARTS);
-  g_autofree SbHistogram *each = g_new0(SbHistogram, count + 1);
-  g_autoptr(GPtrArray) labels = g_ptr_array_new_with_free_func(g_free);
-  size_t used = 0;
-  for (size_t k = 0; k < count; k++) {
-    const int figure = figure_at(study, k);
-    const SbFigure *of = sb_figure(figure);
-    bool any = false;
-    for (size_t i = 0; i < study->answers->samples && !any; i++) {
-      any = isfinite(study->answers->value[i * study->answers->figures + k]);
-    }
-    const SbLimit limit = limit_on(study, figure);
-    if (any && of->digits > 0) {
-      g_ptr_array_add(labels, sb_figure_label(figure));
-      each[used++] = (SbHistogram){.title = g_ptr_array_index(labels, labels->len - 1),
-                                   .si = of->si,
-                                   .unit = of->shown,
-                                   .value = study->answers->value + k,
-                                   .count = study->answers->samples,
-                                   .stride = study->answers->figures,
-                                   .low = limit.low,
-                                   .high = limit.high};
-    }
-  }
-  if (used > 0) {
-    sb_report_heading(pages, "How the figures are spread", 240);
-  }
-  for (size_t k = 0; k < used; k += 2) {
-    sb_report_pair(pages, 220, draw_histogram, &each[k], k + 1 < used ? &each[k + 1] : NULL);
-  }
-  if (study->answers->figures > count) {
-    sb_report_text(pages, "The other figures are in the tables alone.", SB_TYPE_NOTE, 400,
-                   SB_ROLE_SECOND);
-  }
-}
-
-static void draw_tornados(SbReportPages *pages, const Study *study) {
-  if (study->tornados == 0) {
-    return;
-  }
-  sb_report_heading(pages, "Sensitivities", 200);
-  for (size_t k = 0; k < study->tornados; k += 2) {
-    const size_t bars = MIN(study->tornado[k].count, SB_TORNADO_MAX);
-    sb_report_pair(pages, 70 + 18 * (double)bars, draw_tornado, &study->tornado[k],
-                   k + 1 < study->tornados ? &study->tornado[k + 1] : NULL);
-  }
-}
-
-// ---- Sensitivities ----
-
-// Correlation of a column of values with a parameter's; NaN without scatter.
-static double correlation(const Study *study, size_t figure, size_t parameter) {
-  const SbAnswers *answers = study->answers;
-  const size_t n = study->study->vary->len;
-  double count = 0, sx = 0, sy = 0, sxx = 0, syy = 0, sxy = 0;
-  if (!sb_samples_vary(answers->value + figure, answers->samples, answers->figures)) {
-    return 0;
-  }
-  for (int pass = 0; pass < 2; pass++) {
-    const double mx = pass == 1 ? sx / count : 0, my = pass == 1 ? sy / count : 0;
-    for (size_t i = 0; i < answers->samples; i++) {
-      const double y = answers->value[i * answers->figures + figure];
-      const double x = study->of->value[i * n + parameter];
-      if (!isfinite(x) || !isfinite(y)) {
-      } else if (pass == 0) {
-        count++;
-        sx += x;
-        sy += y;
-      } else {
-        sxx += (x - mx) * (x - mx);
-        syy += (y - my) * (y - my);
-        sxy += (x - mx) * (y - my);
-      }
-    }
-  }
-  return count > 2 && sxx > 0 && syy > 0 ? sxy / sqrt(sxx * syy) : NAN;
-}
-
-static void set_bar(SbTornado *of, const char *name, double value, double low, double high) {
-  if (of->count < G_N_ELEMENTS(of->bar)) {
-    of->bar[of->count].name = name;
-    of->bar[of->count].value = value;
-    of->bar[of->count].low = low;
-    of->bar[of->count++].high = high;
-  }
-}
-
-// Bars of one figure by what the method knows: total shares of the variance, elementary effects, or
-// what a straight line over each parameter explains.
-static void fill_tornado(SbTornado *out, Study *study, size_t k) {
-  const SbStudyFile *file = study->study;
-  const SbFigure *figure = sb_figure(figure_at(study, k));
-  const size_t n = file->vary->len, samples = study->answers->samples;
-  g_autofree double *column = g_new(double, samples + 1);
-  for (size_t i = 0; i < samples; i++) {
-    column[i] = study->answers->value[i * study->answers->figures + k];
-  }
-  const char *name[SB_VARY_MAX];
-  for (size_t i = 0; i < n; i++) {
-    g_ptr_array_add(study->names, vary_label(vary_at(study, i)));
-    name[i] = g_ptr_array_index(study->names, study->names->len - 1);
-  }
-  out->unit = "%";
-  if (file->method == SB_METHOD_SOBOL_INDICES) {
-    SbIndex first[SB_VARY_MAX], total[SB_VARY_MAX];
-    SbReport report = {0};
-    const SbStatus status =
-        sb_sobol_indices(first, total, column, samples / (n + 2), n, file->seed, &report);
-    study->status = status != SB_OK ? status : study->status;
-    out->note = "fraction of the variance, with interactions; line: 95 % interval";
-    for (size_t i = 0; status == SB_OK && i < n; i++) {
-      set_bar(out, name[i], 100 * total[i].value, 100 * total[i].low, 100 * total[i].high);
-    }
-  } else if (file->method == SB_METHOD_MORRIS) {
-    SbElementaryEffects effect[SB_VARY_MAX];
-    sb_morris_effects(effect, column, study->of->drawn->unit, samples, n);
-    out->note = "mean elementary effect over the parameter's range";
-    out->unit = figure->shown;
-    for (size_t i = 0; i < n; i++) {
-      set_bar(out, name[i], sb_quantity_to_shown(effect[i].mean, figure->si, figure->shown), NAN,
-              NAN);
-    }
-  } else {
-    out->note = "fraction of the variance by linear correlation, with its sign";
-    for (size_t i = 0; i < n; i++) {
-      const double r = correlation(study, k, i);
-      set_bar(out, name[i], 100 * r * fabs(r), NAN, NAN);
-    }
-  }
-}
-
-static void make_tornados(Study *study) {
-  const SbStudyFile *file = study->study;
-  const bool knows =
-      file->method == SB_METHOD_SOBOL_INDICES || file->method == SB_METHOD_MORRIS ||
-      ((file->method == SB_METHOD_MONTE_CARLO || file->method == SB_METHOD_SOBOL_SEQUENCE) &&
-       file->root == NULL);
-  study->names = g_ptr_array_new_with_free_func(g_free);
-  study->tornado = g_new0(SbTornado, CHARTS);
-  for (size_t k = 0; knows && k < study->answers->figures && study->tornados < CHARTS; k++) {
-    SbTornado *each = &study->tornado[study->tornados];
-    fill_tornado(each, study, k);
-    bool any = false;
-    for (size_t i = 0; i < each->count; i++) {
-      any |= isfinite(each->bar[i].value) && each->bar[i].value != 0;
-    }
-    if (any) {
-      g_ptr_array_add(study->names, sb_figure_label(figure_at(study, k)));
-      each->title = g_ptr_array_index(study->names, study->names->len - 1);
-      study->tornados++;
-    } else {
-      *each = (SbTornado){0};
-    }
-  }
-}
-
 // ---- Grids ----
 
 // Curves of a grid of real parameters: the last one along the axis, a line for each combination of
 // the others; what does not fit is left to the table.
-static void make_curves(Study *study) {
+static void make_curves(SbReportStudyParts *study) {
   const SbStudyFile *file = study->study;
   const size_t n = file->vary->len, samples = study->answers->samples;
   if (file->method != SB_METHOD_GRID || file->lines != NULL || n == 0) {
     return;
   }
-  const SbParam *last = sb_param(vary_at(study, n - 1)->id);
+  const SbParam *last = sb_param(sb_report_study_vary(study, n - 1)->id);
   size_t length = 1; // of a line: until the first parameter comes back to where it began
   while (length < samples &&
          memcmp(&study->of->value[length * n], study->of->value, (n - 1) * sizeof(double)) == 0) {
@@ -452,9 +269,9 @@ static void make_curves(Study *study) {
   g_strlcpy(out->x.unit, last->unit, sizeof out->x.unit);
   out->complete = true;
   for (size_t k = 0; k < study->answers->figures && out->panel_count < SB_STUDY_PANELS; k++) {
-    const int index = figure_at(study, k);
+    const int index = sb_report_study_figure(study, k);
     const SbFigure *figure = sb_figure(index);
-    const SbLimit limit = limit_on(study, index);
+    const SbLimit limit = sb_report_study_limit(study, index);
     g_autofree char *label = sb_figure_label(index);
     SbStudyAxis axis = {.logarithmic = false};
     g_strlcpy(axis.quantity, label, sizeof axis.quantity);
@@ -466,8 +283,8 @@ static void make_curves(Study *study) {
     for (size_t line = 0; line < samples / length; line++) {
       g_autoptr(GString) name = g_string_new(NULL);
       for (size_t p = 0; p + 1 < n; p++) {
-        g_autofree char *value =
-            sb_param_format(vary_at(study, p)->id, study->of->value[line * length * n + p]);
+        g_autofree char *value = sb_param_format(sb_report_study_vary(study, p)->id,
+                                                 study->of->value[line * length * n + p]);
         g_string_append_printf(name, "%s%s", p > 0 ? ", " : "", value);
       }
       SbStudySeries *series =
@@ -487,10 +304,10 @@ static void draw_study(cairo_t *cr, SbRect rect, const SbTheme *theme, const voi
 }
 
 // Returns the parameters of a sample with their values.
-static char *point_text(const Study *study, size_t sample) {
+static char *point_text(const SbReportStudyParts *study, size_t sample) {
   GString *out = g_string_new(NULL);
   for (size_t p = 0; p < study->study->vary->len; p++) {
-    const SbVary *vary = vary_at(study, p);
+    const SbVary *vary = sb_report_study_vary(study, p);
     const double at = study->of->value[sample * study->study->vary->len + p];
     if (vary->id != SB_VARY_VARIABLE && isfinite(at)) {
       const char *symbol = sb_param(vary->id)->symbol;
@@ -503,7 +320,7 @@ static char *point_text(const Study *study, size_t sample) {
 }
 
 // Draws one row for each sample of a grid: its parameters in one cell, then the first figures.
-static void draw_samples(SbReportPages *pages, const Study *study) {
+static void draw_samples(SbReportPages *pages, const SbReportStudyParts *study) {
   enum { FIGURES = 4 };
   const SbAnswers *answers = study->answers;
   SbTableColumn columns[2 + FIGURES] = {{.label = "", .width = 0.6},
@@ -514,7 +331,7 @@ static void draw_samples(SbReportPages *pages, const Study *study) {
     return;
   }
   for (size_t k = 0; k < figures; k++) {
-    g_ptr_array_add(heads, sb_figure_label(figure_at(study, k)));
+    g_ptr_array_add(heads, sb_figure_label(sb_report_study_figure(study, k)));
     columns[2 + k] = (SbTableColumn){.label = heads->pdata[k], .width = 1.8};
   }
   g_autoptr(SbTable) table = sb_table_new(columns, 2 + figures);
@@ -523,8 +340,8 @@ static void draw_samples(SbReportPages *pages, const Study *study) {
     SbTableCell cell[2 + FIGURES] = {sb_cell_shown(g_strdup_printf("%zu", i + 1)),
                                      sb_cell_own(point_text(study, i))};
     for (size_t k = 0; k < figures; k++) {
-      cell[2 + k] =
-          sb_cell_own(shown(figure_at(study, k), answers->value[i * answers->figures + k]));
+      cell[2 + k] = sb_cell_own(
+          shown(sb_report_study_figure(study, k), answers->value[i * answers->figures + k]));
     }
     sb_table_add(table, cell);
     sb_table_mark(table, answers->status[i] == SB_OK ? SB_TABLE_PLAIN : SB_TABLE_DOUBT);
@@ -534,7 +351,7 @@ static void draw_samples(SbReportPages *pages, const Study *study) {
 
 // ---- The whole ----
 
-static void draw_failures(SbReportPages *pages, const Study *study) {
+static void draw_failures(SbReportPages *pages, const SbReportStudyParts *study) {
   enum { MOST = 12 };
   size_t shown = 0;
   if (sb_study_failed(study->answers) == 0) {
@@ -560,7 +377,7 @@ static void draw_failures(SbReportPages *pages, const Study *study) {
 }
 
 static void draw_pages(SbReportPages *pages, const void *of) {
-  Study *study = (Study *)of;
+  SbReportStudyParts *study = (SbReportStudyParts *)of;
   const SbStudyFile *file = study->study;
   const size_t done = sb_study_done(study->answers), failed = sb_study_failed(study->answers);
   g_autofree char *line =
@@ -595,9 +412,9 @@ static void draw_pages(SbReportPages *pages, const void *of) {
   draw_warnings(pages, study);
   draw_varied(pages, study);
   if (is_drawn(study) && file->method != SB_METHOD_GRID) {
-    draw_histograms(pages, study);
+    sb_report_study_histograms(pages, study);
   }
-  draw_tornados(pages, study);
+  sb_report_study_tornados(pages, study);
   if (study->curves != NULL) {
     sb_report_heading(pages, "Over the grid", 420);
     sb_report_picture(pages, study->curves->panel_count > 1 ? 620 : 400, draw_study, study->curves);
@@ -610,7 +427,7 @@ static void draw_pages(SbReportPages *pages, const void *of) {
 
 bool sb_report_study(FILE *stream, const SbReportStudy *of, const SbReportHooks *hooks,
                      GError **error) {
-  Study study = {.of = of, .study = of->study, .answers = of->answers};
+  SbReportStudyParts study = {.of = of, .study = of->study, .answers = of->answers};
   g_autofree char *scene = sb_report_files(of->study->scene);
   g_autofree char *own = of->study->path != NULL ? g_path_get_basename(of->study->path) : NULL;
   study.files = own != NULL ? g_strconcat(own, "  \xc2\xb7  ", scene, NULL) : g_strdup(scene);
@@ -619,7 +436,7 @@ bool sb_report_study(FILE *stream, const SbReportStudy *of, const SbReportHooks 
                                .foot = foot,
                                .hash = of->study->base_sha256,
                                .bookmark = "Summary"};
-  make_tornados(&study);
+  sb_report_study_make_tornados(&study);
   make_curves(&study);
   bool good = sb_report_pages_write(stream, &texts, draw_pages, &study, hooks, error);
   if (good && study.status != SB_OK) {

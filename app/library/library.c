@@ -1,20 +1,14 @@
 // The installed interface (include/sealbench.h) over documents, runs and the evaluator.
 //
 // Statuses are the engine's, numbered alike. All memory that callers see belongs to the scene.
-#define _GNU_SOURCE // dladdr()
 #include "include/sealbench.h"
 
 #include "app/base/device.h"
 #include "app/document/document.h"
 #include "app/document/shipped.h"
-#include "engine/valve/sealbench.h"
+#include "app/library/library_private.h"
 
-#include <dlfcn.h>
-#include <gsl/gsl_errno.h>
-#include <locale.h>
 #include <math.h>
-#include <pthread.h>
-#include <stddef.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -47,119 +41,6 @@ struct SbScene {
   void *data;
   locale_t caller; // locale of the thread that computes, for its callbacks
 };
-
-// ---- What one frame has ----
-
-typedef struct {
-  SbFigureInfo info;
-  size_t offset;
-  bool single; // a float
-} Quantity;
-
-#define FRAME(name, unit, member)                                                                  \
-  { {name, unit}, offsetof(SbFrame, member), sizeof((SbFrame){0}.member) == sizeof(float) }
-#define SEAL(which, name, unit, member) FRAME("seals." which "." name, unit, member)
-#define SEAL_QUANTITIES(which, index)                                                              \
-  SEAL(which, "contact_left_m", "m", seal[index].contact_left),                                    \
-      SEAL(which, "contact_right_m", "m", seal[index].contact_right),                              \
-      SEAL(which, "land_share", "1", seal[index].land_fraction),                                   \
-      SEAL(which, "pressure_left_Pa", "Pa", seal[index].pressure_left),                            \
-      SEAL(which, "pressure_right_Pa", "Pa", seal[index].pressure_right),                          \
-      SEAL(which, "load_N", "N", seal[index].load),                                                \
-      SEAL(which, "pressure_peak_Pa", "Pa", seal[index].pressure_peak),                            \
-      SEAL(which, "film_min_m", "m", seal[index].film_min),                                        \
-      SEAL(which, "film_central_m", "m", seal[index].film_central),                                \
-      SEAL(which, "lambda", "1", seal[index].lambda),                                              \
-      SEAL(which, "friction_boundary_N", "N", seal[index].friction_boundary),                      \
-      SEAL(which, "friction_viscous_N", "N", seal[index].friction_viscous),                        \
-      SEAL(which, "friction_N", "N", seal[index].friction)
-
-static const Quantity quantities[] = {
-    FRAME("time_s", "s", time),
-    FRAME("displacement_m", "m", displacement),
-    FRAME("velocity_m_per_s", "m/s", velocity),
-    FRAME("platen_m", "m", platen),
-    FRAME("force_N", "N", force),
-    FRAME("pressure_force_N", "N", pressure_force),
-    FRAME("stop_force_N", "N", stop_force),
-    FRAME("spring_force_N", "N", spring_force),
-    FRAME("chamber_pressure_Pa", "Pa", chamber_pressure),
-    SEAL_QUANTITIES("outer", SB_OUTER),
-    SEAL_QUANTITIES("inner", SB_INNER),
-};
-
-// ---- Catalogues, filled once ----
-
-static SbParameterInfo parameter_infos[SB_PARAM_COUNT];
-static SbFigureInfo figure_infos[SB_FIGURE_COUNT];
-static SbFigureInfo quantity_infos[G_N_ELEMENTS(quantities)];
-static pthread_once_t once = PTHREAD_ONCE_INIT;
-
-// Texts and numbers are the same in every locale of the program: while a function of the library
-// runs, its thread has this one.
-static locale_t own_locale;
-
-static void restore_locale(locale_t *before) {
-  (void)uselocale(*before);
-}
-#define IN_OWN_LOCALE                                                                              \
-  __attribute__((cleanup(restore_locale), unused)) locale_t before_ = uselocale(own_locale)
-
-static void set_up(void) {
-  own_locale = newlocale(LC_ALL_MASK, "C.UTF-8", (locale_t)0);
-  if (own_locale == (locale_t)0) {
-    own_locale = newlocale(LC_ALL_MASK, "C", (locale_t)0);
-  }
-  // A special function outside its domain must not end the program; the engine checks results.
-  gsl_set_error_handler_off();
-  // Shipped files are found from the library, as the program is the caller's.
-  Dl_info library;
-  if (dladdr(&once, &library) != 0) {
-    sb_shipped_set_library(library.dli_fname);
-  }
-  for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    const SbParam *param = sb_param((SbParamId)i);
-    parameter_infos[i] =
-        (SbParameterInfo){param->key,   param->symbol, param->si,  param->unit, param->choices,
-                          param->label, param->help,   param->min, param->max,  param->fallback};
-  }
-  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    figure_infos[i] = (SbFigureInfo){sb_figure(i)->path, sb_figure(i)->si};
-  }
-  for (size_t i = 0; i < G_N_ELEMENTS(quantities); i++) {
-    quantity_infos[i] = quantities[i].info;
-  }
-}
-
-static void ensure_set_up(void) {
-  pthread_once(&once, set_up);
-}
-
-const char *sb_library_version(void) {
-  return sb_version();
-}
-
-const char *sb_library_source(void) {
-  return sb_engine_identity()->source;
-}
-
-const SbParameterInfo *sb_list_parameters(size_t *count) {
-  ensure_set_up();
-  *count = SB_PARAM_COUNT;
-  return parameter_infos;
-}
-
-const SbFigureInfo *sb_list_figures(size_t *count) {
-  ensure_set_up();
-  *count = SB_FIGURE_COUNT;
-  return figure_infos;
-}
-
-const SbFigureInfo *sb_list_quantities(size_t *count) {
-  ensure_set_up();
-  *count = G_N_ELEMENTS(quantities);
-  return quantity_infos;
-}
 
 // ---- Failures ----
 
@@ -231,8 +112,8 @@ static SbSceneStatus take(SbScene **out, SbDocument *document, GPtrArray *issues
 }
 
 SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
-  ensure_set_up();
-  IN_OWN_LOCALE;
+  sb_catalogue_set_up();
+  SB_IN_OWN_LOCALE;
   GPtrArray *issues = sb_issues_new();
   char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
   SbDocument *document = sb_document_load(file, issues);
@@ -247,15 +128,15 @@ SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
 }
 
 SbSceneStatus sb_scene_parse(SbScene **out, const char *text, size_t length, const char *folder) {
-  ensure_set_up();
-  IN_OWN_LOCALE;
+  sb_catalogue_set_up();
+  SB_IN_OWN_LOCALE;
   GPtrArray *issues = sb_issues_new();
   return take(out, sb_document_parse(text, length, "text", folder, issues), issues, true);
 }
 
 SbSceneStatus sb_scene_new(SbScene **out) {
-  ensure_set_up();
-  IN_OWN_LOCALE;
+  sb_catalogue_set_up();
+  SB_IN_OWN_LOCALE;
   return take(out, sb_document_new(), sb_issues_new(), true);
 }
 
@@ -295,7 +176,7 @@ const char *sb_scene_title(const SbScene *scene) {
 }
 
 const char *sb_scene_text(SbScene *scene) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   g_free(scene->text);
   scene->text = sb_document_to_text(scene->document, NULL);
   return scene->text;
@@ -311,7 +192,7 @@ static SbSceneStatus refused(SbScene *scene, const char *key, GError *error) {
 }
 
 SbSceneStatus sb_scene_set_text(SbScene *scene, const char *key, const char *text) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   GError *error = NULL;
   int id = find_parameter(scene, key);
   if (id < 0) {
@@ -322,7 +203,7 @@ SbSceneStatus sb_scene_set_text(SbScene *scene, const char *key, const char *tex
 }
 
 SbSceneStatus sb_scene_set(SbScene *scene, const char *key, double value) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   GError *error = NULL;
   int id = find_parameter(scene, key);
   if (id < 0) {
@@ -342,7 +223,7 @@ SbSceneStatus sb_scene_set(SbScene *scene, const char *key, double value) {
 }
 
 SbSceneStatus sb_scene_unset(SbScene *scene, const char *key) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   int id = find_parameter(scene, key);
   if (id < 0) {
     return SB_SCENE_ERROR_INPUT;
@@ -352,14 +233,14 @@ SbSceneStatus sb_scene_unset(SbScene *scene, const char *key) {
 }
 
 SbSceneStatus sb_scene_get(SbScene *scene, const char *key, double *value) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   int id = find_parameter(scene, key);
   *value = id < 0 ? NAN : sb_document_value(scene->document, (SbParamId)id);
   return id < 0 ? SB_SCENE_ERROR_INPUT : SB_SCENE_OK;
 }
 
 const char *sb_scene_get_text(SbScene *scene, const char *key) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   int id = find_parameter(scene, key);
   g_free(scene->text);
   scene->text = id < 0 ? NULL : sb_document_text(scene->document, (SbParamId)id);
@@ -407,7 +288,7 @@ static SbSceneStatus compile(SbScene *scene, SbModel **model) {
 }
 
 SbSceneStatus sb_scene_run(SbScene *scene) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   scene->caller = before_;
   g_autoptr(SbModel) model = NULL;
   SbPlan plan;
@@ -431,7 +312,7 @@ SbSceneStatus sb_scene_run(SbScene *scene) {
 }
 
 SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   int index = find_figure(scene, path);
   const SbSummary *summary = scene->run != NULL ? sb_run_summary(scene->run) : NULL;
   *value = NAN;
@@ -477,25 +358,23 @@ size_t sb_scene_frame_count(const SbScene *scene) {
 }
 
 SbSceneStatus sb_scene_frames(SbScene *scene, const char *quantity, double *out) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   size_t count = 0;
   const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
-  for (size_t q = 0; q < G_N_ELEMENTS(quantities); q++) {
-    if (strcmp(quantities[q].info.key, quantity) != 0) {
-      continue;
-    }
-    for (size_t i = 0; i < count; i++) {
-      const char *at = (const char *)&frames[i] + quantities[q].offset;
-      out[i] = quantities[q].single ? (double)*(const float *)at : *(const double *)at;
-    }
-    return SB_SCENE_OK;
+  const SbFrameQuantity *of = sb_catalogue_quantity(quantity);
+  if (of == NULL) {
+    return fail(scene, SB_SCENE_ERROR_INPUT, quantity, "frames have no quantity \"%s\"", quantity);
   }
-  return fail(scene, SB_SCENE_ERROR_INPUT, quantity, "frames have no quantity \"%s\"", quantity);
+  for (size_t i = 0; i < count; i++) {
+    const char *at = (const char *)&frames[i] + of->offset;
+    out[i] = of->single ? (double)*(const float *)at : *(const double *)at;
+  }
+  return SB_SCENE_OK;
 }
 
 SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
                                SbSceneProfile *out) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   size_t count = 0;
   const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
   *out = (SbSceneProfile){0};
@@ -523,7 +402,7 @@ SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
 SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const double *values,
                                 size_t count, const char *const *figures, size_t figure_count,
                                 double *out) {
-  IN_OWN_LOCALE;
+  SB_IN_OWN_LOCALE;
   scene->caller = before_;
   g_autoptr(SbModel) model = NULL;
   SbReport why = {0};

@@ -8,12 +8,12 @@
 #include <math.h>
 #include <stdio.h>
 
-// The valve's axis in a whole picture, the lower end of a zoomed one [px].
-static double axis_of(const SbSection *section) {
+double sb_section_axis(const SbSection *section) {
   return fmin((double)section->strip.y + (double)section->strip.height, section->y0);
 }
 
-static SbSectionLabel label_style(SbColor color, int weight, SbAlign align, const SbColor *plate) {
+SbSectionLabel sb_section_label_style(SbColor color, int weight, SbAlign align,
+                                      const SbColor *plate) {
   return (SbSectionLabel){12, weight, align, color, plate};
 }
 
@@ -34,8 +34,8 @@ void sb_section_name_pressure(SbSection *section, double x, double y, const char
                               double pressure, bool below) {
   const SbPalette *palette = section->palette;
   char value[SB_SECTION_NUMBER];
-  SbSectionLabel bold = label_style(palette->ink, 600, SB_LEFT, NULL);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_LEFT, NULL);
+  SbSectionLabel bold = sb_section_label_style(palette->ink, 600, SB_LEFT, NULL);
+  SbSectionLabel plain = sb_section_label_style(palette->ink, 400, SB_LEFT, NULL);
   sb_section_megapascal(value, pressure);
   const double at[1][2] = {{x, y}};
   if (!sb_section_place(section, at, 1, &bold, name)) {
@@ -63,10 +63,10 @@ static void draw_regions(SbSection *section) {
   bool has_vent = valve->vent_right > valve->vent_left;
   double vent = (double)sb_section_at(section, valve->vent_left, 0).x;
   double vent_end = (double)sb_section_at(section, valve->vent_right, 0).x;
-  SbSectionLabel style = label_style(palette->ink, 600, SB_RIGHT, &palette->housing);
+  SbSectionLabel style = sb_section_label_style(palette->ink, 600, SB_RIGHT, &palette->housing);
   const double housing[1][2] = {{has_vent ? vent - 12 : end - 50, top}};
   sb_section_place(section, housing, 1, &style, _("Housing"));
-  SbSectionLabel small = label_style(palette->second, 400, SB_LEFT, &palette->housing);
+  SbSectionLabel small = sb_section_label_style(palette->second, 400, SB_LEFT, &palette->housing);
   double room = end - vent_end - 16;
   if (has_vent && sb_text_width(section->text, _("vent"), 12, 400) < room) {
     const double at[1][2] = {{vent_end + 10, top}};
@@ -84,8 +84,8 @@ static void draw_regions(SbSection *section) {
   char value[SB_SECTION_NUMBER];
   sb_section_megapascal(value, frame->seal[SB_INNER].pressure_right);
   double depth = (valve->bore - valve->chamber_floor) * section->scale;
-  SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, NULL);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_MIDDLE, NULL);
+  SbSectionLabel bold = sb_section_label_style(palette->ink, 600, SB_MIDDLE, NULL);
+  SbSectionLabel plain = sb_section_label_style(palette->ink, 400, SB_MIDDLE, NULL);
   double length = sb_model_shape(section->model)->chamber_length * section->scale;
   if (length > 1.3 * sb_text_width(section->text, _("Chamber"), 12, 600)) {
     const double high[1][2] = {{(double)chamber.x, (double)chamber.y + 1}};
@@ -123,8 +123,8 @@ static void draw_land_edge(SbSection *section) {
     return;
   }
   // As many of its words as there is room for; lines without a name would say nothing.
-  SbSectionLabel letter = label_style(palette->ink, 700, SB_LEFT, &palette->housing);
-  SbSectionLabel plain = label_style(palette->ink, 400, SB_LEFT, &palette->housing);
+  SbSectionLabel letter = sb_section_label_style(palette->ink, 700, SB_LEFT, &palette->housing);
+  SbSectionLabel plain = sb_section_label_style(palette->ink, 400, SB_LEFT, &palette->housing);
   const char *const words[3] = {text, _("land edge"), ""};
   char whole[140];
   size_t chosen = 0;
@@ -189,7 +189,7 @@ static void draw_seal_names(SbSection *section) {
              : on_chamfer(section->instant->ring[i]) ? _(", on the chamfer only")
                                                      : _(", no contact"));
     SbPoint below = sb_section_at(section, sb_section_origin(section, i), section->valve.floor);
-    SbSectionLabel style = label_style(palette->seal[i], 600, SB_MIDDLE, &palette->stem);
+    SbSectionLabel style = sb_section_label_style(palette->seal[i], 600, SB_MIDDLE, &palette->stem);
     // In both halves there is room over the lower ring too.
     double mirrored = 2 * section->y0 - (double)below.y - 12;
     const double at[3][2] = {{below.x, below.y + 21}, {below.x, below.y + 38}, {below.x, mirrored}};
@@ -197,123 +197,15 @@ static void draw_seal_names(SbSection *section) {
   }
 }
 
-static void draw_friction(SbSection *section) {
-  const SbPalette *palette = section->palette;
-  const SbFrame *frame = section->instant->frame;
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealFrame *seal = &frame->seal[i];
-    double length = SB_SECTION_PX_PER_NEWTON * seal->friction;
-    if (fabs(seal->friction) < 0.05 || seal->land_fraction <= 0) {
-      continue;
-    }
-    // Friction on the stem; the arrow stands just above the contact.
-    double middle = sb_section_origin(section, i) +
-                    (section->ring[i].contact_left + section->ring[i].contact_right) / 2;
-    SbPoint at = sb_section_at(section, middle, section->valve.bore);
-    const double up = section->valve.gasket ? -1 : 1; // into the stem, or into the housing
-    double y = at.y - up * 14;
-    sb_draw_arrow(section->list, at.x - length / 2, y, at.x + length / 2, y, 3, 11, 10,
-                  palette->seal[i]);
-    sb_section_reserve(section, at.x - fabs(length) / 2, y - 5, fabs(length), 10);
-    char text[80], value[SB_SECTION_NUMBER];
-    snprintf(text, sizeof text, _("friction %s"), sb_section_force(value, fabs(seal->friction)));
-    SbSectionLabel style =
-        label_style(palette->seal[i], 600, SB_MIDDLE, up > 0 ? &palette->housing : &palette->stem);
-    const double near = up > 0 ? y - 10 : y + 18, far = up > 0 ? y - 27 : y + 35;
-    const double place_at[7][2] = {{at.x, near},      {at.x + 30, near}, {at.x + 50, near},
-                                   {at.x - 50, near}, {at.x, far},       {at.x + 60, far},
-                                   {at.x + 76, near}};
-    sb_section_place(section, place_at, 7, &style, text);
-  }
-}
-
-// The forces of canister pressure and spring at the nose of the stem; the pressure at the height y
-// [px].
-static void draw_nose_forces(SbSection *section, double y) {
-  const SbPalette *palette = section->palette;
-  SbDrawList *list = section->list;
-  const SbFrame *frame = section->instant->frame;
-  char text[80], value[SB_SECTION_NUMBER];
-  double nose = sb_section_at(section, section->valve.nose - frame->displacement, 0).x;
-  double length = SB_SECTION_PX_PER_NEWTON * fabs(frame->pressure_force);
-  if (length > 2) {
-    // Below ambient it draws the stem in.
-    bool pushes = frame->pressure_force > 0;
-    double tail = nose - (pushes ? length : 1.5), tip = nose - (pushes ? 1.5 : length);
-    sb_draw_arrow(list, tail, y, tip, y, 5, 15, 16, palette->fluid_line);
-    snprintf(text, sizeof text, _("pressure %s"), sb_section_force(value, frame->pressure_force));
-    SbSectionLabel style = {13, 700, SB_LEFT, palette->fluid_line, &palette->stem};
-    sb_section_label(section, nose + 10, y + 5, &style, text);
-    sb_section_reserve(section, nose - length, y - 8, length, 16);
-  }
-
-  if (frame->spring_force >= 0.05) {
-    const double shown = SB_SECTION_PX_PER_NEWTON * frame->spring_force;
-    const double line = axis_of(section) - 15;
-    sb_draw_arrow(list, nose - shown, line, nose - 1.5, line, 3, 11, 10, palette->second);
-    snprintf(text, sizeof text, _("spring %s"), sb_section_force(value, frame->spring_force));
-    SbSectionLabel small = label_style(palette->second, 600, SB_LEFT, &palette->stem);
-    const double behind[1][2] = {{nose + 10, line + 4}};
-    sb_section_place(section, behind, 1, &small, text);
-    sb_section_reserve(section, nose - shown, line - 5, shown, 10);
-  }
-}
-
-// The forces of drive and stop at the stem's rod, at the height y [px].
-static void draw_rod_forces(SbSection *section, double y) {
-  const SbPalette *palette = section->palette;
-  SbDrawList *list = section->list;
-  const SbFrame *frame = section->instant->frame;
-  char text[80], value[SB_SECTION_NUMBER];
-  double right = section->strip.x + section->strip.width - 10;
-  double force = frame->force;
-  if (fabs(force) >= 0.05) {
-    double shown = SB_SECTION_PX_PER_NEWTON * fabs(force);
-    double tail = force > 0 ? right : right - shown;
-    sb_draw_arrow(list, tail, y, tail + (force > 0 ? -shown : shown), y, 7, 20, 22, palette->ink);
-    sb_section_reserve(section, right - shown, y - 11, shown, 22);
-  }
-  snprintf(text, sizeof text, _("drive %s"), sb_section_force(value, force));
-  SbSectionLabel style = {14, 700, SB_RIGHT, palette->ink, &palette->stem};
-  // Above the arrow; behind its point where that would be off a thin rod, or not at all: the
-  // read-outs have it too.
-  bool above = y - 34 > (double)sb_section_at(section, 0, section->valve.rod).y;
-  double point = fabs(force) >= 0.05 ? right - SB_SECTION_PX_PER_NEWTON * fabs(force) - 8 : right;
-  const double at[2][2] = {{right, y - 18}, {point, y + 5}};
-  bool written = sb_section_place(section, at + !above, 1 + above, &style, text);
-
-  if (fabs(frame->stop_force) >= 0.05) {
-    double shown = SB_SECTION_PX_PER_NEWTON * frame->stop_force;
-    double stop_y = axis_of(section) - 15;
-    // On a thin rod it has no line of its own: left of the drive's arrow and label.
-    if (y + 11 > stop_y - 6) {
-      right = point - (written ? sb_text_width(section->text, text, 14, 700) + 10 : 0);
-    }
-    double from = shown > 0 ? right - shown : right;
-    sb_draw_arrow(list, from, stop_y, from + shown, stop_y, 3, 11, 10, palette->second);
-    snprintf(text, sizeof text, _("stop %s"), sb_section_force(value, frame->stop_force));
-    SbSectionLabel small = label_style(palette->second, 600, SB_RIGHT, &palette->stem);
-    // In a small picture it gives way: the balance below the section has it too.
-    const double behind[1][2] = {{MIN(from, from + shown) - 8, stop_y + 4}};
-    sb_section_place(section, behind, 1, &small, text);
-  }
-}
-
-static void draw_stem_forces(SbSection *section) {
-  const double y = axis_of(section) - fmin(40, 0.45 * section->valve.rod * section->scale);
-  draw_nose_forces(section, y);
-  draw_rod_forces(section, y);
-}
-
 // "Stem" and its speed.
 static void draw_motion(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
-  double axis = axis_of(section);
+  double axis = sb_section_axis(section);
   const SbValveOutline *valve = &section->valve;
   const double named = valve->gasket ? (valve->shoulder + valve->port_left) / 2 : valve->chamber;
   double middle = sb_section_at(section, named - frame->displacement, 0).x;
-  SbSectionLabel bold = label_style(palette->ink, 600, SB_MIDDLE, &palette->stem);
+  SbSectionLabel bold = sb_section_label_style(palette->ink, 600, SB_MIDDLE, &palette->stem);
   // Below the chamber, or beside it where it is deep.
   double beside = middle + sb_model_shape(section->model)->chamber_length / 2 * section->scale + 30;
   bool deep = axis - 52 < (double)sb_section_at(section, 0, section->valve.chamber_floor).y + 16;
@@ -328,7 +220,7 @@ static void draw_motion(SbSection *section) {
   char text[80], value[SB_SECTION_NUMBER];
   sb_section_fixed(value, speed, speed >= 100 ? 0 : speed >= 10 ? 1 : speed >= 1 ? 2 : 3);
   snprintf(text, sizeof text, "%s mm/s", value);
-  SbSectionLabel plain = label_style(palette->second, 400, SB_LEFT, &palette->stem);
+  SbSectionLabel plain = sb_section_label_style(palette->second, 400, SB_LEFT, &palette->stem);
   double from = middle - 34, to = middle + 34;
   const double left[1][2] = {{to + 10, axis - 15}};
   if (sb_section_place(section, left, 1, &plain, text)) {
@@ -433,7 +325,7 @@ static void draw_dose_path(SbSection *section) {
   }
   sb_section_draw_way(section, way, count);
   const SbPoint start = sb_section_at(section, way[0].x, way[0].y);
-  SbSectionLabel style = label_style(palette->fluid_line, 600, SB_LEFT, NULL);
+  SbSectionLabel style = sb_section_label_style(palette->fluid_line, 600, SB_LEFT, NULL);
   const double at[3][2] = {
       {start.x, start.y - 9}, {start.x, start.y + 20}, {section->strip.x + 12, start.y + 20}};
   sb_section_place(section, at, 3, &style, _("dose path open"));
@@ -497,7 +389,7 @@ static void draw_zoom(SbSection *section) {
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
     snprintf(text, sizeof text, _("contact %s"),
              sb_section_millimetre(value, seal->contact_right - seal->contact_left));
-    SbSectionLabel style = label_style(palette->ink, 600, SB_MIDDLE, &palette->panel);
+    SbSectionLabel style = sb_section_label_style(palette->ink, 600, SB_MIDDLE, &palette->panel);
     bool inside = sb_text_width(section->text, text, 12, 600) + 30 < (double)(b.x - a.x);
     sb_section_label(section, (double)(a.x + b.x) / 2, inside ? y + 4 : y + 22, &style, text);
   }
@@ -509,8 +401,8 @@ static void draw_zoom(SbSection *section) {
   const double pressure[2] = {seal->pressure_left, seal->pressure_right};
   for (int side = 0; side < 2; side++) {
     // Beyond the wall, on the stem, pointing into the corner.
-    SbSectionLabel style =
-        label_style(palette->fluid_line, 600, side == 0 ? SB_RIGHT : SB_LEFT, &palette->stem);
+    SbSectionLabel style = sb_section_label_style(palette->fluid_line, 600,
+                                                  side == 0 ? SB_RIGHT : SB_LEFT, &palette->stem);
     snprintf(text, sizeof text, _("fluid %s"), sb_section_megapascal(value, pressure[side]));
     double x = wall[side] + (side == 0 ? -20 : 20);
     sb_section_label(section, x, y, &style, text);
@@ -522,13 +414,13 @@ void sb_section_draw_strip_labels(SbSection *section) {
   bool labels = !section->view->hide_labels, forces = !section->view->hide_forces;
   // In the order of their right to stay.
   if (forces && whole) {
-    draw_stem_forces(section);
+    sb_section_draw_stem_forces(section);
   }
   if (labels && whole && !section->valve.gasket) {
     reserve_land_edge(section);
   }
   if (forces) {
-    draw_friction(section);
+    sb_section_draw_friction(section);
   }
   if (labels && section->valve.gasket) {
     sb_section_gasket_labels(section, whole);

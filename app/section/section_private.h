@@ -101,6 +101,21 @@ void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
 // Draws the stem.
 void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map);
 
+// Returns the height of the valve's axis in the strip [px], or the lower end of a zoomed picture.
+double sb_section_axis(const SbSection *section);
+
+// Returns the style of a label of size 12. `plate` (NULL: none) is borrowed.
+SbSectionLabel sb_section_label_style(SbColor color, int weight, SbAlign align,
+                                      const SbColor *plate);
+
+// Draws the friction forces of both seals on the stem, or on the body of a gasket, with their
+// values (section_forces.c).
+void sb_section_draw_friction(SbSection *section);
+
+// Draws the forces of pressure and spring at the stem's nose, and those of drive and stop at its
+// rod (section_forces.c).
+void sb_section_draw_stem_forces(SbSection *section);
+
 // Draws a label at the first of the positions at[count] (x, y) [px] in the strip where it fits.
 // Returns false if it fits at none.
 bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,

@@ -1,7 +1,7 @@
 // Shared by the files of the session: session.c (document), session_disk.c (its file),
-// session_measured.c, session_remarks.c, session_run.c (runs), session_pins.c (saved designs),
-// session_shown.c (the displayed run), session_slope.c (predictions) and session_playhead.c. Main
-// thread only, except sb_session_notify().
+// session_measured.c, session_remarks.c, session_request.c (requests of runs), session_run.c (their
+// results), session_pins.c (saved designs), session_shown.c (the displayed run), session_slope.c
+// (predictions) and session_playhead.c. Main thread only, except sb_session_notify().
 #pragma once
 
 #include "app/session/displayed_run.h"
@@ -160,6 +160,43 @@ void sb_session_set_reference(SbDisplayedRun **run, SbDisplayedRun *value);
 
 // An SbRunnerNotify, called in the runners' threads; `data` is the session's inbox.
 void sb_session_notify(void *data);
+
+// Gives the playhead its place in the displayed run: that of sb_session_remember_place(), or as it
+// follows or waits for the run.
+void sb_session_place_playhead(SbSession *session);
+
+// Stores the place of the playhead in the displayed run, before another one is displayed.
+void sb_session_remember_place(SbSession *session);
+
+// Displays session->fresh, which has frames; the run displayed before becomes session->earlier,
+// which is drawn behind it. The caller places the playhead.
+void sb_session_display_fresh(SbSession *session);
+
+// Returns the state of a session whose request has ended.
+SbSessionState sb_session_ended_state(const SbSession *session);
+
+// ---- Requests of runs (session_request.c) ----
+
+// Removes the GLib source *source, if there is one, and sets it to 0.
+void sb_session_cancel_source(guint *source);
+
+// Returns whether a run (NULL: no) is complete and belongs to values and drawings
+// (sb_model_drawings()).
+bool sb_session_answers(const SbDisplayedRun *run, const SbParams *params, uint64_t drawings);
+
+// Returns whether the last request was for the present values and drawings.
+bool sb_session_is_current(const SbSession *session);
+
+// Requests a run of the present values, which make a model. If there is no run of this grade, or it
+// would save no time, the next better grade is used.
+void sb_session_submit(SbSession *session, SbRunGrade grade);
+
+// Requests the grade that follows the displayed run of the present values, or does so later.
+void sb_session_continue(SbSession *session);
+
+// Stores a complete run of the present values for reuse, and makes it the base of ring states and
+// of derivatives.
+void sb_session_keep_run(SbSession *session, SbDisplayedRun *run);
 
 // ---- What is displayed ----
 

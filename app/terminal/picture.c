@@ -20,7 +20,7 @@ SbPictures sb_pictures_of_environment(SbColors colors, bool ascii) {
     const bool iterm = chafa_term_info_have_seq(info, CHAFA_TERM_SEQ_BEGIN_ITERM2_IMAGE);
     const bool sixel = chafa_term_info_have_seq(info, CHAFA_TERM_SEQ_BEGIN_SIXELS);
     chafa_term_info_unref(info);
-    // Many call themselves xterm, which may or may not: those are asked (screen.c).
+    // Many call themselves xterm, which may or may not: those are asked (screen_input.c).
     const char *term = g_getenv("TERM");
     if (kitty) {
       return SB_PICTURES_KITTY;

@@ -2,48 +2,18 @@
 // crash needs, the modes and a few bytes, stands ready for a handler that may call nothing else.
 #include "app/terminal/screen.h"
 
+#include "app/terminal/screen_private.h"
+
 #include <errno.h>
 #include <fcntl.h>
 #include <glib-unix.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <termios.h>
-#include <tickit.h>
 #include <unistd.h>
-
-enum {
-  SLOW_US = 150000,    // a line that takes longer for one picture of the screen is slow
-  REPLY_MAX = 256,     // bytes of an answer of the terminal
-  ESCAPE_MS = 50,      // how long a lone Escape waits for what may follow it
-  QUEUE_MAX = 8 << 20, // bytes that wait; a terminal that takes none of them is gone
-};
-
-struct SbScreen {
-  SbScreenClient client;
-  TickitTerm *term;
-  TickitPen *pen;
-  int tty;    // a description of its own: its flags are nobody else's
-  bool taken; // raw mode, alternate screen
-  int columns, rows, cell_width, cell_height;
-  bool ascii, asked; // asked: pictures are chosen by what the terminal answers
-  SbColors colors;
-  SbPictures pictures;
-  SbCells shown; // what the terminal has
-  bool unknown;  // what it has is not known
-  GByteArray *queue;
-  gint64 since; // when the queue began to fill [us]
-  bool slow;
-  guint in, out, signals, escape;
-  char reply[REPLY_MAX]; // beginning of an answer
-  size_t reply_length;
-  GString *pixels; // on the screen
-  SbCellRect pixels_at;
-  int cursor_x, cursor_y;
-};
 
 // Whatever happens ------------------------------------------------------------------------------
 
@@ -107,373 +77,6 @@ static void catch_signals(bool on) {
   }
 }
 
-// Out -------------------------------------------------------------------------------------------
-
-static gboolean on_writable(int fd, GIOCondition condition, gpointer data);
-
-// Writes what the line takes now.
-static void write_some(SbScreen *screen) {
-  guint done = 0;
-  bool gone = false;
-  while (done < screen->queue->len) {
-    const ssize_t written =
-        write(screen->tty, screen->queue->data + done, screen->queue->len - done);
-    if (written < 0 && errno == EINTR) {
-      continue;
-    }
-    if (written <= 0) {
-      gone = errno != EAGAIN && errno != EWOULDBLOCK;
-      break;
-    }
-    done += (guint)written;
-  }
-  g_byte_array_remove_range(screen->queue, 0, done);
-  if (gone || screen->queue->len > QUEUE_MAX) {
-    g_byte_array_set_size(screen->queue, 0);
-    screen->client.end(screen->client.data);
-  }
-  if (screen->queue->len == 0) {
-    screen->slow = screen->since != 0 && g_get_monotonic_time() - screen->since > SLOW_US;
-    screen->since = 0;
-  } else if (screen->out == 0) {
-    screen->out = g_unix_fd_add(screen->tty, G_IO_OUT | G_IO_ERR | G_IO_HUP, on_writable, screen);
-  }
-}
-
-static gboolean on_writable(int fd, GIOCondition condition, gpointer data) {
-  SbScreen *screen = data;
-  write_some(screen);
-  if (screen->queue->len > 0) {
-    return G_SOURCE_CONTINUE;
-  }
-  screen->out = 0;
-  screen->client.draw(screen->client.data); // what was left out meanwhile
-  return G_SOURCE_REMOVE;
-}
-
-static void push(SbScreen *screen, const void *bytes, size_t length) {
-  if (length > 0) {
-    screen->since = screen->since == 0 ? g_get_monotonic_time() : screen->since;
-    g_byte_array_append(screen->queue, bytes, (guint)length);
-  }
-}
-
-static void push_text(SbScreen *screen, const char *text) {
-  push(screen, text, strlen(text));
-}
-
-// Of libtickit; without bytes it is about to end.
-static void on_output(TickitTerm *term, const char *bytes, size_t length, void *data) {
-  if (bytes != NULL) {
-    push(data, bytes, length);
-  }
-}
-
-// Showing ---------------------------------------------------------------------------------------
-
-static void set_color(SbScreen *screen, TickitPenAttr attribute, uint32_t rgb) {
-  if (rgb == SB_CELL_OWN || screen->colors == SB_COLORS_NONE) {
-    tickit_pen_set_colour_attr(screen->pen, attribute, -1);
-    return;
-  }
-  const SbColors palette = screen->colors == SB_COLORS_TRUE ? SB_COLORS_256 : screen->colors;
-  tickit_pen_set_colour_attr(screen->pen, attribute, sb_colors_nearest(palette, rgb));
-  if (screen->colors == SB_COLORS_TRUE) {
-    tickit_pen_set_colour_attr_rgb8(
-        screen->pen, attribute,
-        (TickitPenRGB8){(uint8_t)(rgb >> 16), (uint8_t)(rgb >> 8), (uint8_t)rgb});
-  }
-}
-
-static void set_pen(SbScreen *screen, const SbPen *pen) {
-  set_color(screen, TICKIT_PEN_FG, pen->ink);
-  set_color(screen, TICKIT_PEN_BG, pen->ground);
-  tickit_pen_set_bool_attr(screen->pen, TICKIT_PEN_BOLD, (pen->style & SB_CELL_BOLD) != 0);
-  tickit_pen_set_bool_attr(screen->pen, TICKIT_PEN_REVERSE, (pen->style & SB_CELL_REVERSE) != 0);
-  tickit_pen_set_int_attr(screen->pen, TICKIT_PEN_UNDER, (pen->style & SB_CELL_UNDERLINE) != 0);
-  tickit_term_setpen(screen->term, screen->pen);
-}
-
-// Without colours a blank is a blank, whatever its ink.
-static bool same_cell(const SbCell *a, const SbCell *b) {
-  return a->glyph == b->glyph && a->pen.ground == b->pen.ground && a->pen.style == b->pen.style &&
-         (a->glyph == ' ' || a->pen.ink == b->pen.ink);
-}
-
-static bool same_pen(const SbPen *a, const SbPen *b) {
-  return a->ink == b->ink && a->ground == b->ground && a->style == b->style;
-}
-
-static void send_cells(SbScreen *screen, const SbCells *cells) {
-  enum { BRIDGE = 4 }; // cells that are sent again rather than jumped over
-  const SbPen *set = NULL;
-  for (int y = 0; y < cells->rows; y++) {
-    const size_t line = (size_t)y * (size_t)cells->columns;
-    const SbCell *next = &cells->cell[line];
-    SbCell *old = &screen->shown.cell[line];
-    int at = -1; // where the terminal's cursor is in this line
-    for (int x = 0; x < cells->columns; x++) {
-      if (!screen->unknown && same_cell(&next[x], &old[x])) {
-        continue;
-      }
-      if (at < 0 || x - at > BRIDGE) {
-        tickit_term_goto(screen->term, y, x);
-        at = x;
-      }
-      for (; at <= x; at++) {
-        char text[8];
-        if (set == NULL || !same_pen(set, &next[at].pen)) {
-          set = &next[at].pen;
-          set_pen(screen, set);
-        }
-        const int length = g_unichar_to_utf8(next[at].glyph, text);
-        tickit_term_printn(screen->term, text, (size_t)length);
-        old[at] = next[at];
-      }
-    }
-  }
-}
-
-static bool same_rect(const SbCellRect *a, const SbCellRect *b) {
-  return a->x == b->x && a->y == b->y && a->width == b->width && a->height == b->height;
-}
-
-// What was drawn by pixels goes when the cells under it are sent again.
-static void remove_pixels(SbScreen *screen) {
-  if (screen->pixels == NULL) {
-    return;
-  }
-  push_text(screen, sb_picture_removal(screen->pictures));
-  const SbCellRect *at = &screen->pixels_at;
-  sb_cells_fill(&screen->shown, *at, 0, (SbPen){0, 0, 0});
-  g_string_free(screen->pixels, TRUE);
-  screen->pixels = NULL;
-}
-
-void sb_screen_show(SbScreen *screen, const SbCells *cells, const GString *pixels,
-                    SbCellRect rect) {
-  if (!screen->taken || cells->columns != screen->columns || cells->rows != screen->rows) {
-    return;
-  }
-  if (screen->shown.columns != cells->columns || screen->shown.rows != cells->rows) {
-    sb_cells_finish(&screen->shown);
-    sb_cells_init(&screen->shown, cells->columns, cells->rows, screen->ascii);
-    screen->unknown = true;
-  }
-  const bool other = screen->pixels == NULL || pixels == NULL ||
-                     !same_rect(&rect, &screen->pixels_at) ||
-                     !g_string_equal(pixels, screen->pixels);
-  if (pixels == NULL || (screen->pixels != NULL && !same_rect(&rect, &screen->pixels_at))) {
-    remove_pixels(screen);
-  }
-  if (screen->unknown) {
-    tickit_term_setpen(screen->term, screen->pen);
-    tickit_term_clear(screen->term);
-  }
-  send_cells(screen, cells);
-  tickit_term_flush(screen->term);
-  if (pixels != NULL && (other || screen->unknown)) {
-    char place[32];
-    g_snprintf(place, sizeof place, "\033[%d;%dH", rect.y + 1, rect.x + 1);
-    push_text(screen, place);
-    push(screen, pixels->str, pixels->len);
-    if (screen->pixels != NULL) {
-      g_string_free(screen->pixels, TRUE);
-    }
-    screen->pixels = g_string_new_len(pixels->str, (gssize)pixels->len);
-    screen->pixels_at = rect;
-  }
-  screen->unknown = false;
-  const bool cursor = screen->cursor_x >= 0;
-  tickit_term_setctl_int(screen->term, TICKIT_TERMCTL_CURSORVIS, cursor);
-  if (cursor) {
-    tickit_term_goto(screen->term, screen->cursor_y, screen->cursor_x);
-  }
-  tickit_term_flush(screen->term);
-  write_some(screen);
-}
-
-void sb_screen_cursor(SbScreen *screen, int x, int y) {
-  screen->cursor_x = x;
-  screen->cursor_y = y;
-}
-
-void sb_screen_redraw(SbScreen *screen) {
-  remove_pixels(screen);
-  screen->unknown = true;
-  screen->client.draw(screen->client.data);
-}
-
-// In --------------------------------------------------------------------------------------------
-
-static void find_size(SbScreen *screen) {
-  struct winsize size = {0};
-  if (ioctl(screen->tty, TIOCGWINSZ, &size) != 0 || size.ws_col == 0 || size.ws_row == 0) {
-    size = (struct winsize){.ws_col = 80, .ws_row = 24};
-  }
-  screen->columns = MIN((int)size.ws_col, SB_CELLS_COLUMNS_MAX);
-  screen->rows = MIN((int)size.ws_row, SB_CELLS_ROWS_MAX);
-  if (size.ws_xpixel >= 4 * size.ws_col && size.ws_ypixel >= 4 * size.ws_row) {
-    screen->cell_width = MIN(size.ws_xpixel / size.ws_col, 64);
-    screen->cell_height = MIN(size.ws_ypixel / size.ws_row, 128);
-  }
-  tickit_term_set_size(screen->term, screen->rows, screen->columns);
-}
-
-static int on_tickit_key(TickitTerm *term, TickitEventFlags flags, void *info, void *data) {
-  static const struct {
-    const char *name;
-    SbKeyKind kind;
-  } names[] = {
-      {"Up", SB_KEY_UP},         {"Down", SB_KEY_DOWN},      {"Left", SB_KEY_LEFT},
-      {"Right", SB_KEY_RIGHT},   {"PageUp", SB_KEY_PAGE_UP}, {"PageDown", SB_KEY_PAGE_DOWN},
-      {"Home", SB_KEY_HOME},     {"End", SB_KEY_END},        {"Enter", SB_KEY_ENTER},
-      {"Escape", SB_KEY_ESCAPE}, {"Tab", SB_KEY_TAB},        {"Backspace", SB_KEY_BACKSPACE},
-      {"DEL", SB_KEY_BACKSPACE}, {"Delete", SB_KEY_DELETE},  {"Space", SB_KEY_CHARACTER}};
-  SbScreen *screen = data;
-  const TickitKeyEventInfo *event = info;
-  SbKey key = {.control = (event->mod & TICKIT_MOD_CTRL) != 0,
-               .shift = (event->mod & TICKIT_MOD_SHIFT) != 0,
-               .alt = (event->mod & TICKIT_MOD_ALT) != 0};
-  if (event->type == TICKIT_KEYEV_TEXT) {
-    const gunichar character = g_utf8_get_char_validated(event->str, -1);
-    if (character < 0x110000) {
-      key.character = character;
-      screen->client.key(screen->client.data, &key);
-    }
-    return 1;
-  }
-  // "C-S-Left": the name is behind the last dash that is not itself one.
-  const char *name = strrchr(event->str, '-');
-  name = name != NULL && name[1] != '\0' ? name + 1 : event->str;
-  for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
-    if (strcmp(name, names[i].name) == 0) {
-      key.kind = names[i].kind == SB_KEY_TAB && key.shift ? SB_KEY_BACK_TAB : names[i].kind;
-      key.character = names[i].kind == SB_KEY_CHARACTER ? ' ' : 0;
-      screen->client.key(screen->client.data, &key);
-      return 1;
-    }
-  }
-  if (name[1] == '\0' && key.control) {
-    key.character = (uint32_t)g_ascii_tolower(name[0]);
-    screen->client.key(screen->client.data, &key);
-  }
-  return 1;
-}
-
-static int on_tickit_mouse(TickitTerm *term, TickitEventFlags flags, void *info, void *data) {
-  SbScreen *screen = data;
-  const TickitMouseEventInfo *event = info;
-  SbKey key = {.x = event->col, .y = event->line, .shift = (event->mod & TICKIT_MOD_SHIFT) != 0};
-  if (event->type == TICKIT_MOUSEEV_WHEEL) {
-    key.kind = event->button == TICKIT_MOUSEWHEEL_UP ? SB_KEY_WHEEL_UP : SB_KEY_WHEEL_DOWN;
-  } else if ((event->type == TICKIT_MOUSEEV_PRESS || event->type == TICKIT_MOUSEEV_DRAG) &&
-             event->button == 1) {
-    key.kind = SB_KEY_PRESS;
-  } else {
-    return 1;
-  }
-  screen->client.key(screen->client.data, &key);
-  return 1;
-}
-
-// What the terminal says of itself: "ESC [ ? 62 ; 4 c" with a 4 among the numbers takes sixels, and
-// "ESC [ 6 ; H ; W t" is the size of a cell [px].
-static void take_reply(SbScreen *screen) {
-  const char *reply = screen->reply;
-  const char last = reply[screen->reply_length - 1];
-  if (last == 'c' && reply[2] == '?') {
-    g_autofree char *numbers = g_strndup(reply + 3, screen->reply_length - 4);
-    g_auto(GStrv) each = g_strsplit(numbers, ";", 0);
-    if (screen->asked && g_strv_contains((const char *const *)each, "4")) {
-      screen->pictures = SB_PICTURES_SIXEL;
-      screen->client.draw(screen->client.data);
-    }
-  } else if (last == 't') {
-    int height = 0, width = 0;
-    screen->reply[screen->reply_length - 1] = '\0';
-    if (sscanf(reply, "\033[6;%d;%d", &height, &width) == 2 && width >= 4 && width <= 64 &&
-        height >= 4 && height <= 128) {
-      screen->cell_width = width;
-      screen->cell_height = height;
-      screen->client.draw(screen->client.data);
-    }
-  }
-}
-
-// Takes a byte for an answer, if it is one's beginning or goes on with it: those that libtickit has
-// not asked for. Keys never look like that: CSI ? ... c and CSI 6 ; ... t.
-static bool is_reply_so_far(const char *text, size_t length) {
-  static const char start[] = "\033[";
-  if (length <= 2) {
-    return memcmp(text, start, length) == 0;
-  }
-  const char kind = text[2];
-  if (kind != '?' && kind != '6') {
-    return false;
-  }
-  if (length == 4 && kind == '6' && text[3] != ';') {
-    return false; // ESC [ 6 ~: Page Down
-  }
-  for (size_t i = 3; i + 1 < length; i++) {
-    if (!g_ascii_isdigit(text[i]) && text[i] != ';') {
-      return false;
-    }
-  }
-  const char last = text[length - 1];
-  return length < 4 || g_ascii_isdigit(last) || last == ';' || last == (kind == '?' ? 'c' : 't');
-}
-
-static void pass_on(SbScreen *screen, const char *bytes, size_t length) {
-  tickit_term_input_push_bytes(screen->term, bytes, length);
-}
-
-static void end_reply(SbScreen *screen) {
-  pass_on(screen, screen->reply, screen->reply_length);
-  screen->reply_length = 0;
-}
-
-static gboolean on_escape(gpointer data) {
-  SbScreen *screen = data;
-  screen->escape = 0;
-  end_reply(screen);
-  // What libtickit holds back for the same reason.
-  while (screen->taken && tickit_term_input_check_timeout_msec(screen->term) > 0) {
-    g_usleep(1000);
-  }
-  return G_SOURCE_REMOVE;
-}
-
-static gboolean on_readable(int fd, GIOCondition condition, gpointer data) {
-  SbScreen *screen = data;
-  char bytes[1024];
-  const ssize_t count = read(fd, bytes, sizeof bytes);
-  if (count == 0 || (count < 0 && errno != EAGAIN && errno != EINTR)) {
-    screen->in = 0;
-    screen->client.end(screen->client.data);
-    return G_SOURCE_REMOVE;
-  }
-  for (ssize_t i = 0; i < count && screen->taken; i++) {
-    screen->reply[screen->reply_length++] = bytes[i];
-    if (!is_reply_so_far(screen->reply, screen->reply_length) ||
-        screen->reply_length == REPLY_MAX - 1) {
-      end_reply(screen);
-    } else if (screen->reply_length > 3 && (bytes[i] == 'c' || bytes[i] == 't')) {
-      take_reply(screen);
-      screen->reply_length = 0;
-    }
-  }
-  if (screen->escape != 0) {
-    g_source_remove(screen->escape);
-    screen->escape = 0;
-  }
-  if (screen->taken &&
-      (screen->reply_length > 0 || tickit_term_input_check_timeout_msec(screen->term) > 0)) {
-    screen->escape = g_timeout_add(ESCAPE_MS, on_escape, screen);
-  }
-  return G_SOURCE_CONTINUE;
-}
-
 // Taking and giving -----------------------------------------------------------------------------
 
 static void take(SbScreen *screen) {
@@ -490,8 +93,8 @@ static void take(SbScreen *screen) {
   tickit_term_setctl_int(screen->term, TICKIT_TERMCTL_CURSORVIS, 0);
   tickit_term_setctl_int(screen->term, TICKIT_TERMCTL_MOUSE, TICKIT_TERM_MOUSEMODE_DRAG);
   tickit_term_flush(screen->term);
-  find_size(screen);
-  write_some(screen);
+  sb_screen_find_size(screen);
+  sb_screen_write(screen);
 }
 
 // Writes what waits, as far as the line takes it within a moment.
@@ -514,7 +117,7 @@ static void leave(SbScreen *screen) {
   }
   screen->taken = false;
   if (screen->pixels != NULL) {
-    push_text(screen, sb_picture_removal(screen->pictures));
+    sb_screen_push_text(screen, sb_picture_removal(screen->pictures));
     g_string_free(screen->pixels, TRUE);
     screen->pixels = NULL;
   }
@@ -560,7 +163,7 @@ static gboolean on_pipe(int fd, GIOCondition condition, gpointer data) {
       leave(screen);
       take(screen);
     }
-    find_size(screen);
+    sb_screen_find_size(screen);
     screen->client.draw(screen->client.data);
   }
   return G_SOURCE_CONTINUE;
@@ -609,7 +212,7 @@ static void build_terminal(SbScreen *screen) {
   const struct TickitTermBuilder builder = {
       .termtype = screen->colors == SB_COLORS_TRUE || type == NULL ? "xterm" : type,
       .open = TICKIT_NO_OPEN,
-      .output_func = on_output,
+      .output_func = sb_screen_on_output,
       .output_func_user = screen,
       .output_buffersize = 4096,
   };
@@ -617,7 +220,7 @@ static void build_terminal(SbScreen *screen) {
   if (screen->term == NULL) {
     screen->term = tickit_term_build(&(struct TickitTermBuilder){.termtype = "xterm",
                                                                  .open = TICKIT_NO_OPEN,
-                                                                 .output_func = on_output,
+                                                                 .output_func = sb_screen_on_output,
                                                                  .output_func_user = screen,
                                                                  .output_buffersize = 4096});
   }
@@ -657,8 +260,8 @@ SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *cli
   screen->cursor_x = -1;
   build_terminal(screen);
   screen->pen = tickit_pen_new();
-  tickit_term_bind_event(screen->term, TICKIT_TERM_ON_KEY, 0, on_tickit_key, screen);
-  tickit_term_bind_event(screen->term, TICKIT_TERM_ON_MOUSE, 0, on_tickit_mouse, screen);
+  tickit_term_bind_event(screen->term, TICKIT_TERM_ON_KEY, 0, sb_screen_on_key, screen);
+  tickit_term_bind_event(screen->term, TICKIT_TERM_ON_MOUSE, 0, sb_screen_on_mouse, screen);
   sb_cells_init(&screen->shown, 1, 1, screen->ascii);
   catch_signals(true);
   static bool registered;
@@ -666,12 +269,12 @@ SbScreen *sb_screen_open(const SbScreenWishes *wishes, const SbScreenClient *cli
     registered = atexit(give_back) == 0;
   }
   screen->signals = g_unix_fd_add(rescue.pipe[0], G_IO_IN, on_pipe, screen);
-  screen->in = g_unix_fd_add(tty, G_IO_IN | G_IO_HUP | G_IO_ERR, on_readable, screen);
+  screen->in = g_unix_fd_add(tty, G_IO_IN | G_IO_HUP | G_IO_ERR, sb_screen_on_readable, screen);
   take(screen);
   if (screen->asked) {
-    push_text(screen, "\033[c\033[16t");
+    sb_screen_push_text(screen, "\033[c\033[16t");
   }
-  write_some(screen);
+  sb_screen_write(screen);
   return screen;
 }
 

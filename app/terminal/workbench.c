@@ -1,6 +1,6 @@
 // The workbench in a terminal: its life, when it draws, and the frame of every page. See
 // workbench.h. A picture of the screen is made when something changed and the line has taken the
-// one before, at most 60 times a second; only cells that differ are sent (screen.c).
+// one before, at most 60 times a second; only cells that differ are sent (screen_output.c).
 #include "app/terminal/workbench_private.h"
 
 #include "app/base/translation.h"

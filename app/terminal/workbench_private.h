@@ -1,6 +1,7 @@
 // Shared by the files of the workbench in a terminal: workbench.c (start, end, drawing),
 // workbench_valve.c and workbench_pages.c (content of the pages), workbench_params.c (list of
-// parameters), workbench_export.c and workbench_keys.c (keys and mouse). Main thread only.
+// parameters), workbench_export.c, workbench_keys.c (keys and mouse) and workbench_entry.c (lines
+// that the user types, popups). Main thread only.
 //
 // Drawing: sb_bench_draw_...() write to bench->cells, and workbench.c alone calls them when the
 // screen is to be drawn. All other functions that change what is displayed request a drawing
@@ -189,6 +190,29 @@ void sb_bench_study_stop(SbBench *bench);
 // Starts an export from a line that the user typed: a path and a view, "loop.png hysteresis". Shows
 // a message if the line is wrong or an export is running.
 void sb_bench_export(SbBench *bench, const char *text);
+
+// ---- workbench_entry.c ----
+
+// Lets the user type a line, which starts with `text`; bench->input becomes `input`.
+void sb_bench_type(SbBench *bench, SbInput input, const char *text);
+
+// Acts on a key while the user types a line.
+void sb_bench_type_key(SbBench *bench, const SbKey *key);
+
+// Shows a popup over the page.
+void sb_bench_open_popup(SbBench *bench, SbPopup popup);
+
+// Acts on a key while a popup is shown.
+void sb_bench_popup_key(SbBench *bench, const SbKey *key);
+
+// Saves the document as `path`; NULL: to its own file. Returns whether it was saved; otherwise
+// shows a message, requests a name, or shows the popup about a file that another program has
+// changed.
+bool sb_bench_save(SbBench *bench, const char *path);
+
+// Checks whether another program has changed the document's file, and shows a popup after a change.
+// Does nothing within a second of the last check, while a popup is shown, or while the user types.
+void sb_bench_check_disk(SbBench *bench);
 
 // ---- workbench_keys.c ----
 
