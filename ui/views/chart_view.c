@@ -7,38 +7,18 @@
 #include "ui/views/chart_view.h"
 
 #include "app/base/device.h"
-#include "app/base/figure_text.h"
-#include "app/base/translation.h"
 #include "app/chart/compare.h"
-#include "app/chart/hysteresis.h"
 #include "app/chart/life.h"
-#include "app/chart/profiles.h"
 #include "app/chart/rig.h"
 #include "app/chart/shelf.h"
 #include "app/chart/signal.h"
-#include "engine/valve/figures/figures.h"
 #include "ui/views/canvas_area.h"
-#include "ui/views/draw_cache.h"
-#include "ui/views/later.h"
+#include "ui/views/chart_view_private.h"
 #include "ui/views/signals.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
-
-typedef struct {
-  SbSession *session;
-  SbChartViewKind kind;
-  GtkWidget *area;
-  SbDrawCache *cache;
-  SbLater describe;        // renews the description
-  double cursor;           // displacement under the pointer [m]; NaN: none
-  double point_x, point_y; // of the pointer over a contact's panel [px]; NaN: none
-  SbChartZoom zoom;
-  gboolean zoomed;
-  enum { HAND_FREE, HAND_SCRUBS, HAND_BOXES, HAND_MOVES } hand;
-  double press_x, press_y, x, y; // where the hand began, and is [px]
-} View;
 
 static const struct {
   const char *name;
@@ -51,13 +31,17 @@ static const struct {
     {N_("Why they differ"), 224, 224, 1000},
 };
 
+const char *sb_chart_view_name(SbChartViewKind kind) {
+  return _(kinds[kind].name);
+}
+
 // Model of the run shown; before the first run, of the values.
 static const SbModel *model_of(SbSession *session) {
   const SbModel *model = sb_session_chart(session)->run.model;
   return model != NULL ? model : sb_session_model(session);
 }
 
-static gboolean applies(const View *view) {
+static gboolean applies(const SbChartWidget *view) {
   const SbModel *model = model_of(view->session);
   gboolean rig = !sb_device(model)->stem;
   switch (view->kind) {
@@ -100,14 +84,14 @@ static SbRect whole(GtkWidget *widget) {
 }
 
 // What is drawn: the session's, and what of it.
-static SbChartData data_of(const View *view) {
+static SbChartData data_of(const SbChartWidget *view) {
   SbChartData data = *sb_session_chart(view->session);
   data.zoom = view->zoomed ? &view->zoom : NULL;
   return data;
 }
 
 static void draw(cairo_t *cr, double width, double height, void *user) {
-  View *view = user;
+  SbChartWidget *view = user;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData shown = data_of(view), *data = &shown;
   SbRect rect = inside(width, height);
@@ -137,8 +121,7 @@ static void draw(cairo_t *cr, double width, double height, void *user) {
   }
 }
 
-// What the pointer is over in a contact's panel; follows the playhead.
-static gboolean read_contact(const View *view, SbProfileReading *out) {
+gboolean sb_chart_view_read_contact(const SbChartWidget *view, SbProfileReading *out) {
   const SbChartData *data = sb_session_chart(view->session);
   const gboolean film = view->kind == SB_CHART_VIEW_FILM;
   return (film || view->kind == SB_CHART_VIEW_PRESSURE) && !isnan(view->point_x) &&
@@ -147,218 +130,9 @@ static gboolean read_contact(const View *view, SbProfileReading *out) {
                           view->point_y);
 }
 
-// Description ------------------------------------------------------------------------------------
-
-// "return force 1.6 N, " of each, or why it is not known.
-static void append_figures(GString *text, const SbSummary *summary, const char *const *paths) {
-  for (; *paths != NULL; paths++) {
-    int index = sb_figure_find(*paths);
-    const char *reason = sb_figure_reason(summary, index);
-    g_autofree char *label = sb_translation_inside(sb_figure(index)->label);
-    char value[SB_FORMAT_MAX];
-    if (reason != NULL) {
-      g_string_append_printf(text, _("%s not known: %s, "), label, reason);
-    } else {
-      g_string_append_printf(text, "%s %s, ", label, sb_format_figure(value, summary, index));
-    }
-  }
-}
-
-static void describe_loop(SbSession *session, GString *text) {
-  const SbChartData *data = sb_session_chart(session);
-  char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
-  if (data->run.count == 0) {
-    g_string_append(text, _("No run yet."));
-    return;
-  }
-  if (!sb_device(data->run.model)->stem) {
-    const SbSummary *ended = data->run.summary;
-    if (ended != NULL && ended->rig.found) {
-      static const char *const paths[] = {"cycle.force_breakaway_N", "rig.coefficient_static",
-                                          "rig.coefficient_dynamic", "rig.coefficient_mean", NULL};
-      g_string_append(text, _("Sliding plate: "));
-      append_figures(text, ended, paths);
-      g_string_append_printf(text,
-                             _("%zu peaks that follow, thesis 0.51 measured and 0.4 predicted, "),
-                             ended->rig.of.peaks);
-    }
-    g_autofree char *now = sb_session_where(session);
-    g_string_append_printf(text, _("now %s."), now);
-    return;
-  }
-  const SbStageMark *marks = sb_trace_marks(data->run.trace);
-  for (int i = 0; i < SB_STAGE_COUNT; i++) {
-    if (marks[i].reached) {
-      g_string_append_printf(text, _("%s %s at %s, "), sb_stage_name((SbStage)i),
-                             sb_chart_stage_force(a, &data->run, (SbStage)i, marks[i].force),
-                             sb_format_text(b, SB_QUANTITY_LENGTH, marks[i].displacement, 0));
-    }
-  }
-  const SbSummary *summary = data->run.summary;
-  if (summary != NULL) {
-    static const char *const paths[] = {"cycle.force_breakaway_N", "cycle.force_return_margin_N",
-                                        "cycle.energy_loss_J", NULL};
-    append_figures(text, summary, paths);
-  }
-  g_autofree char *where = sb_session_where(session);
-  g_string_append_printf(text, _("now %s."), where);
-}
-
-static void describe_contacts(const SbModel *model, const SbFrame *frame, SbChartViewKind kind,
-                              GString *text) {
-  char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
-  if (frame == NULL) {
-    g_string_append(text, _("No run yet."));
-    return;
-  }
-  for (int i = 0; i < SB_SEAL_COUNT; i++) {
-    const SbSealFrame *seal = &frame->seal[i];
-    const char *name = sb_chart_seal_name(model, i);
-    double width = seal->contact_right - seal->contact_left;
-    if (width <= 0 || seal->land_fraction <= 0) {
-      g_string_append_printf(text, _("%s: no contact. "), name);
-    } else if (kind == SB_CHART_VIEW_PRESSURE) {
-      g_string_append_printf(text, _("%s: peak %s over %s. "), name,
-                             sb_format_text(a, SB_QUANTITY_PRESSURE, seal->pressure_peak, 0),
-                             sb_format_text(b, SB_QUANTITY_LENGTH, width, 0));
-    } else if (seal->film_central > 0) {
-      g_string_append_printf(text, _("%s: centre %s, minimum %s. "), name,
-                             sb_format_text(a, SB_QUANTITY_FILM, seal->film_central, 0),
-                             sb_format_text(b, SB_QUANTITY_FILM, seal->film_min, 0));
-    } else {
-      g_string_append_printf(text, _("%s: at rest. "), name);
-    }
-  }
-}
-
-static void describe_life(SbSession *session, GString *text) {
-  const SbChartRun *run = &sb_session_chart(session)->run;
-  if (run->life_count == 0) {
-    g_string_append(text, _("Known when the run has ended."));
-    return;
-  }
-  char a[SB_FORMAT_MAX], b[SB_FORMAT_MAX];
-  const SbLifeActuation *first = &run->life[0], *last = &run->life[run->life_count - 1];
-  const double error = sb_chart_error_force(run);
-  g_string_append_printf(text, _("%zu actuations: break-away %s at first and %s at last, "),
-                         run->life_count,
-                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_breakaway, error),
-                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_breakaway, error));
-  g_string_append_printf(text, _("minimum return force %s and %s."),
-                         sb_format_text(a, SB_QUANTITY_FORCE, first->force_return, error),
-                         sb_format_text(b, SB_QUANTITY_FORCE, last->force_return, error));
-}
-
-static void describe_shelf(SbSession *session, GString *text) {
-  const SbSummary *summary = sb_session_chart(session)->run.summary;
-  if (summary == NULL) {
-    g_string_append(text, _("Known when the run has ended."));
-    return;
-  }
-  const SbShelf *shelf = &summary->shelf;
-  if (isnan(shelf->loss_per_year)) {
-    g_string_append(text, sb_figure_reason(summary, sb_figure_find("shelf.loss_kg_per_year")));
-    return;
-  }
-  SbFormatted loss, doses;
-  const int loss_figure = sb_figure_find("shelf.loss_kg_per_year");
-  const int doses_figure = sb_figure_find("shelf.doses_left");
-  sb_figure_parts(&loss, loss_figure, shelf->loss_per_year, sb_figure_error(summary, loss_figure));
-  sb_figure_parts(&doses, doses_figure, shelf->doses_left, sb_figure_error(summary, doses_figure));
-  g_string_append_printf(text, _("Loss of %s mg a year, %s doses left. "), loss.number,
-                         doses.number);
-  if (shelf->typical) {
-    g_string_append(text, _("It depends on typical values of the rubber."));
-  }
-}
-
-// What the view draws of a prediction itself, over its paler former run; NULL: nothing.
-static const SbChartPredicted *shown_prediction(const View *view) {
-  const SbChartData *data = sb_session_chart(view->session);
-  const bool draws = view->kind == SB_CHART_VIEW_LOOP || view->kind == SB_CHART_VIEW_PRESSURE ||
-                     view->kind == SB_CHART_VIEW_FILM;
-  return draws && sb_device(data->run.model)->stem ? data->predicted : NULL;
-}
-
-static void describe(gpointer data) {
-  View *view = data;
-  g_autoptr(GString) text = g_string_new(NULL);
-  const SbChartRun *run = &sb_session_chart(view->session)->run;
-  const char *name = _(kinds[view->kind].name);
-  if (view->kind == SB_CHART_VIEW_LOOP) {
-    describe_loop(view->session, text);
-  } else if (view->kind == SB_CHART_VIEW_COMPARE) {
-    g_autofree char *table = sb_compare_text(sb_session_chart(view->session));
-    g_string_append(text, table);
-  } else if (view->kind == SB_CHART_VIEW_LIFE) {
-    describe_life(view->session, text);
-  } else if (view->kind == SB_CHART_VIEW_SHELF) {
-    describe_shelf(view->session, text);
-  } else if (view->kind == SB_CHART_VIEW_REASONS || !sb_device(run->model)->stem) {
-    name = view->kind == SB_CHART_VIEW_PRESSURE ? _("Friction over load") : name;
-    g_autofree char *reasons = sb_rig_reasons_text(run);
-    g_string_append(text, reasons);
-  } else {
-    describe_contacts(sb_session_model(view->session), sb_session_frame(view->session), view->kind,
-                      text);
-  }
-  if (view->zoomed) {
-    g_string_append_printf(text, _(" Enlarged: %.3g to %.3g mm, %.3g to %.3g N."), view->zoom.x0,
-                           view->zoom.x1, view->zoom.y0, view->zoom.y1);
-  }
-  SbProfileReading reading;
-  if (read_contact(view, &reading)) {
-    g_autofree char *read = sb_profiles_cursor_text(&reading, sb_session_chart(view->session),
-                                                    view->kind == SB_CHART_VIEW_FILM);
-    g_string_append_printf(text, _(" Under the pointer: %s."), read);
-  }
-  if (!isnan(view->cursor)) {
-    g_autofree char *read = sb_hysteresis_cursor_text(run, view->cursor);
-    g_string_append_printf(text, _(" Under the pointer: %s."), read);
-  }
-  g_autofree char *former = sb_session_former_text(view->session);
-  if (former != NULL) {
-    g_string_append_printf(text, _(" Of the %s."), former);
-  }
-  g_autofree char *grade = sb_session_grade_text(view->session);
-  if (grade != NULL) {
-    g_string_append_printf(text, _(" Solved: %s."), grade);
-  }
-  const SbChartPredicted *predicted = shown_prediction(view);
-  if (predicted != NULL) {
-    g_string_append(text, _(" Dashed: predicted for the present values. "));
-    if (view->kind != SB_CHART_VIEW_LOOP) {
-      describe_contacts(sb_session_model(view->session), predicted->run.frames, view->kind, text);
-    }
-  }
-  sb_style_name(view->area, name, text->str);
-}
-
-char *sb_chart_view_stage_table(SbSession *session) {
-  const SbChartData *data = sb_session_chart(session);
-  GString *text = g_string_new("stage\ttime [s]\tdisplacement [m]\tforce [N]\n");
-  if (data->run.count > 0) {
-    const SbStageMark *marks = sb_trace_marks(data->run.trace);
-    for (int i = 0; i < SB_STAGE_COUNT; i++) {
-      char a[G_ASCII_DTOSTR_BUF_SIZE], b[G_ASCII_DTOSTR_BUF_SIZE], c[G_ASCII_DTOSTR_BUF_SIZE];
-      if (marks[i].reached) {
-        g_string_append_printf(text, "%s\t%s\t%s\t%s\n", sb_stage_name((SbStage)i),
-                               g_ascii_formatd(a, sizeof a, "%.6g", marks[i].time),
-                               g_ascii_formatd(b, sizeof b, "%.6g", marks[i].displacement),
-                               g_ascii_formatd(c, sizeof c, "%.6g", marks[i].force));
-      }
-    }
-  }
-  if (data->pin_count > 0 || data->measured != NULL) {
-    g_autofree char *compared = sb_compare_text(data);
-    g_string_append_printf(text, "\n%s", compared);
-  }
-  return g_string_free(text, FALSE);
-}
-
 // Pointer ----------------------------------------------------------------------------------------
 
-static gboolean scrub(View *view, double x, double y, double reach) {
+static gboolean scrub(SbChartWidget *view, double x, double y, double reach) {
   size_t frame = 0;
   const SbChartData shown = data_of(view), *data = &shown;
   gboolean hit =
@@ -374,23 +148,23 @@ static gboolean scrub(View *view, double x, double y, double reach) {
 }
 
 // Only a valve's loop is enlarged.
-static gboolean may_zoom(const View *view) {
+static gboolean may_zoom(const SbChartWidget *view) {
   const SbChartRun *run = &sb_session_chart(view->session)->run;
   return view->kind == SB_CHART_VIEW_LOOP && sb_device(run->model)->stem && run->count > 0;
 }
 
 // Enlarges about a point; a factor of 0 shows all.
-static void zoom_at(View *view, double factor, double x, double y) {
+static void zoom_at(SbChartWidget *view, double factor, double x, double y) {
   const SbChartData data = data_of(view);
   SbChartZoom zoom = view->zoom;
   view->zoomed = factor > 0 && sb_hysteresis_zoom(&zoom, whole(view->area), &data, SB_CHART_COMPACT,
                                                   factor, x, y);
   view->zoom = zoom;
   sb_draw_cache_change(view->cache, 0);
-  sb_later_ensure(&view->describe, view->area, 200, describe, view);
+  sb_later_ensure(&view->describe, view->area, 200, sb_chart_view_describe, view);
 }
 
-static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
+static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, SbChartWidget *view) {
   double dx = 0;
   double dy = event->direction == GDK_SCROLL_UP ? -1 : event->direction == GDK_SCROLL_DOWN ? 1 : 0;
   if (event->direction == GDK_SCROLL_SMOOTH) {
@@ -404,7 +178,7 @@ static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) 
 }
 
 // With the focus: + and - enlarge about the playhead, 0 shows all.
-static gboolean on_key(GtkWidget *widget, GdkEventKey *event, View *view) {
+static gboolean on_key(GtkWidget *widget, GdkEventKey *event, SbChartWidget *view) {
   const gboolean in = event->keyval == GDK_KEY_plus || event->keyval == GDK_KEY_KP_Add;
   const gboolean out = event->keyval == GDK_KEY_minus || event->keyval == GDK_KEY_KP_Subtract;
   const gboolean all = event->keyval == GDK_KEY_0 || event->keyval == GDK_KEY_KP_0;
@@ -423,7 +197,7 @@ static gboolean on_key(GtkWidget *widget, GdkEventKey *event, View *view) {
   return GDK_EVENT_STOP;
 }
 
-static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+static gboolean on_press(GtkWidget *widget, GdkEventButton *event, SbChartWidget *view) {
   gtk_widget_grab_focus(widget);
   if (view->kind != SB_CHART_VIEW_LOOP) {
     return GDK_EVENT_PROPAGATE;
@@ -433,17 +207,18 @@ static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
   if (event->type == GDK_2BUTTON_PRESS && may_zoom(view)) {
     zoom_at(view, 0, 0, 0);
   } else if (event->type == GDK_BUTTON_PRESS && event->button == GDK_BUTTON_MIDDLE) {
-    view->hand = HAND_MOVES;
+    view->hand = SB_CHART_HAND_MOVES;
   } else if (event->type == GDK_BUTTON_PRESS && event->button == GDK_BUTTON_PRIMARY) {
-    view->hand = scrub(view, event->x, event->y, 24) || !may_zoom(view) ? HAND_SCRUBS : HAND_BOXES;
+    view->hand = scrub(view, event->x, event->y, 24) || !may_zoom(view) ? SB_CHART_HAND_SCRUBS
+                                                                        : SB_CHART_HAND_BOXES;
   }
   return event->button == GDK_BUTTON_SECONDARY ? GDK_EVENT_PROPAGATE : GDK_EVENT_STOP;
 }
 
 // The box that was drawn, if it is more than a click, fills the plot.
-static gboolean on_release(GtkWidget *widget, GdkEventButton *event, View *view) {
+static gboolean on_release(GtkWidget *widget, GdkEventButton *event, SbChartWidget *view) {
   enum { LEAST = 8 }; // [px]
-  if (view->hand == HAND_BOXES && fabs(view->x - view->press_x) >= LEAST &&
+  if (view->hand == SB_CHART_HAND_BOXES && fabs(view->x - view->press_x) >= LEAST &&
       fabs(view->y - view->press_y) >= LEAST && may_zoom(view)) {
     const SbChartData data = data_of(view);
     SbAxes at;
@@ -455,13 +230,13 @@ static gboolean on_release(GtkWidget *widget, GdkEventButton *event, View *view)
     view->zoomed = TRUE;
     zoom_at(view, 1, view->x, view->y); // within the whole plot
   }
-  view->hand = HAND_FREE;
+  view->hand = SB_CHART_HAND_FREE;
   gtk_widget_queue_draw(widget);
   return GDK_EVENT_STOP;
 }
 
 // Moves what is shown by pixels.
-static void move(View *view, double dx, double dy) {
+static void move(SbChartWidget *view, double dx, double dy) {
   if (!view->zoomed) {
     return;
   }
@@ -475,7 +250,7 @@ static void move(View *view, double dx, double dy) {
   zoom_at(view, 1, at.plot.x, at.plot.y);
 }
 
-static void set_cursor(View *view, double cursor, double x, double y) {
+static void set_cursor(SbChartWidget *view, double cursor, double x, double y) {
   const gboolean contact = view->kind == SB_CHART_VIEW_FILM || view->kind == SB_CHART_VIEW_PRESSURE;
   const gboolean moved = contact && (!isnan(x) || !isnan(view->point_x));
   view->point_x = contact ? x : NAN;
@@ -483,14 +258,14 @@ static void set_cursor(View *view, double cursor, double x, double y) {
   if (moved || (cursor != view->cursor && !(isnan(cursor) && isnan(view->cursor)))) {
     view->cursor = cursor;
     gtk_widget_queue_draw(view->area);
-    sb_later_ensure(&view->describe, view->area, 200, describe, view);
+    sb_later_ensure(&view->describe, view->area, 200, sb_chart_view_describe, view);
   }
 }
 
 // Over the kept picture.
-static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
+static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, SbChartWidget *view) {
   const SbChartData shown = data_of(view), *data = &shown;
-  if (view->hand == HAND_BOXES) {
+  if (view->hand == SB_CHART_HAND_BOXES) {
     const SbColor ink = sb_theme(sb_style_is_dark())->role[SB_ROLE_INK];
     cairo_set_source_rgba(cr, ink.r, ink.g, ink.b, 0.6);
     cairo_set_line_width(cr, 1);
@@ -501,7 +276,7 @@ static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
     return GDK_EVENT_PROPAGATE;
   }
   SbProfileReading reading;
-  if (read_contact(view, &reading)) {
+  if (sb_chart_view_read_contact(view, &reading)) {
     sb_profiles_cursor_draw(cr, sb_theme(sb_style_is_dark()), data, &reading,
                             view->kind == SB_CHART_VIEW_FILM);
   }
@@ -512,34 +287,34 @@ static gboolean on_draw_cursor(GtkWidget *widget, cairo_t *cr, View *view) {
   return GDK_EVENT_PROPAGATE;
 }
 
-static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, View *view) {
+static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, SbChartWidget *view) {
   set_cursor(view, NAN, NAN, NAN);
   return GDK_EVENT_PROPAGATE;
 }
 
 // Reads the loop there.
-static void read_at(View *view, GtkWidget *widget, double x, double y) {
+static void read_at(SbChartWidget *view, GtkWidget *widget, double x, double y) {
   const SbChartData data = data_of(view);
   double cursor = NAN;
   const gboolean inside =
-      may_zoom(view) && view->hand != HAND_BOXES &&
+      may_zoom(view) && view->hand != SB_CHART_HAND_BOXES &&
       sb_hysteresis_cursor(&cursor, whole(widget), &data, SB_CHART_COMPACT, x, y);
   set_cursor(view, inside ? cursor : NAN, x, y);
 }
 
 // A pointer that comes in at one stroke and rests moves no more.
-static gboolean on_enter(GtkWidget *widget, GdkEventCrossing *event, View *view) {
+static gboolean on_enter(GtkWidget *widget, GdkEventCrossing *event, SbChartWidget *view) {
   read_at(view, widget, event->x, event->y);
   return GDK_EVENT_PROPAGATE;
 }
 
-static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, SbChartWidget *view) {
   read_at(view, widget, event->x, event->y);
-  if (view->hand == HAND_SCRUBS) {
+  if (view->hand == SB_CHART_HAND_SCRUBS) {
     scrub(view, event->x, event->y, 80);
-  } else if (view->hand == HAND_MOVES) {
+  } else if (view->hand == SB_CHART_HAND_MOVES) {
     move(view, event->x - view->x, event->y - view->y);
-  } else if (view->hand == HAND_BOXES) {
+  } else if (view->hand == SB_CHART_HAND_BOXES) {
     gtk_widget_queue_draw(widget);
   }
   view->x = event->x;
@@ -549,10 +324,10 @@ static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) 
 
 // Life -------------------------------------------------------------------------------------------
 
-static void show_change(View *view, gboolean later) {
+static void show_change(SbChartWidget *view, gboolean later) {
   gtk_widget_set_visible(view->area, applies(view));
   sb_style_former(view->area,
-                  sb_session_shows_former(view->session) && shown_prediction(view) == NULL);
+                  sb_session_shows_former(view->session) && sb_chart_view_prediction(view) == NULL);
   if (later) {
     sb_draw_cache_change_later(view->cache, SB_DRAW_LATER);
   } else {
@@ -560,23 +335,23 @@ static void show_change(View *view, gboolean later) {
                          sb_session_wants_ticks(view->session) ? kinds[view->kind].interval : 0);
   }
   // Screen readers need no more than a few sentences a second.
-  sb_later_ensure(&view->describe, view->area, 200, describe, view);
+  sb_later_ensure(&view->describe, view->area, 200, sb_chart_view_describe, view);
 }
 
-static void on_change(View *view) {
+static void on_change(SbChartWidget *view) {
   show_change(view, FALSE);
 }
 
-static void on_run(View *view) {
+static void on_run(SbChartWidget *view) {
   show_change(view, sb_session_awaits(view->session));
 }
 
-static void on_params(View *view) {
-  show_change(view, sb_session_awaits(view->session) && shown_prediction(view) == NULL);
+static void on_params(SbChartWidget *view) {
+  show_change(view, sb_session_awaits(view->session) && sb_chart_view_prediction(view) == NULL);
 }
 
 GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
-  View *view = g_new0(View, 1);
+  SbChartWidget *view = g_new0(SbChartWidget, 1);
   view->session = session;
   view->kind = kind;
   view->cursor = view->point_x = NAN;
@@ -603,7 +378,7 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_run), view);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params), view);
-  describe(view);
+  sb_chart_view_describe(view);
   gtk_widget_set_visible(view->area, applies(view));
   return view->area;
 }
