@@ -24,6 +24,8 @@ PROGRAM = os.environ["SEALBENCH_GTK"]
 COMMAND = os.path.join(os.path.dirname(os.path.dirname(PROGRAM)), "sealbench")
 ASSETS = os.environ["SEALBENCH_ASSETS"]
 TIMEOUT = 120.0
+# On a busy machine an answer takes longer than the 0.8 s that AT-SPI waits by default [ms].
+Atspi.set_timeout(20000, 60000)
 # By the names that AT-SPI has for them.
 ROLES = {Atspi.role_get_name(role): role
          for role in (Atspi.Role(number) for number in range(Atspi.Role.LAST_DEFINED))}
