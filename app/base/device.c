@@ -5,22 +5,26 @@
 
 #include <glib/gi18n.h>
 
+// What the valve with rings and the plate, which has the same rings, share.
+#define RINGS                                                                                      \
+  .across = SB_P_SEAL_SECTION_DIAMETER, .up = SB_P_GLAND_RADIAL_SPACE,                             \
+  .seal = {N_("Outer seal"), N_("Inner seal")}, .short_name = {N_("outer"), N_("inner")},          \
+  .friction = {N_("outer friction"), N_("inner friction")},                                        \
+  .off = {N_("outer seal off the land"), N_("inner seal off the land")},                           \
+  .moves = {N_("bore moves right"), N_("bore moves left")}
+
+// What all valves share.
+#define OVER_DISPLACEMENT                                                                          \
+  .loop = N_("Force and displacement"), .axes = N_("N over mm"), .force = N_("force on the stem")
+
 static const SbDevice valves[] = {
     [SB_VALVE_PISTON] =
         {
             .stem = true,
             .gland = true,
             .pressure_map = true,
-            .across = SB_P_SEAL_SECTION_DIAMETER,
-            .up = SB_P_GLAND_RADIAL_SPACE,
-            .seal = {N_("Outer seal"), N_("Inner seal")},
-            .short_name = {N_("outer"), N_("inner")},
-            .friction = {N_("outer friction"), N_("inner friction")},
-            .off = {N_("outer seal off the land"), N_("inner seal off the land")},
-            .moves = {N_("bore moves right"), N_("bore moves left")},
-            .loop = N_("Force and displacement"),
-            .axes = N_("N over mm"),
-            .force = N_("force on the stem"),
+            RINGS,
+            OVER_DISPLACEMENT,
         },
     [SB_VALVE_GASKET] =
         {
@@ -35,21 +39,13 @@ static const SbDevice valves[] = {
             .phase = {N_("at rest, force builds up"), N_("chamber fills past the neck"),
                       N_("chamber shut, then empties"), N_("dose, at the stop"),
                       N_("return, chamber empty"), N_("return, chamber fills")},
-            .loop = N_("Force and displacement"),
-            .axes = N_("N over mm"),
-            .force = N_("force on the stem"),
+            OVER_DISPLACEMENT,
         },
 };
 
 static const SbDevice plate = {
     .pressure_map = true,
-    .across = SB_P_SEAL_SECTION_DIAMETER,
-    .up = SB_P_GLAND_RADIAL_SPACE,
-    .seal = {N_("Outer seal"), N_("Inner seal")},
-    .short_name = {N_("outer"), N_("inner")},
-    .friction = {N_("outer friction"), N_("inner friction")},
-    .off = {N_("outer seal off the land"), N_("inner seal off the land")},
-    .moves = {N_("bore moves right"), N_("bore moves left")},
+    RINGS,
     .phase = {N_("force builds up"), N_("sticks and slips"), N_("sticks and slips"),
               N_("sticks and slips"), N_("sticks and slips"), N_("sticks and slips")},
     .loop = N_("Force and time"),

@@ -18,7 +18,7 @@ static char *nearest_folder(const char *path) {
   return at;
 }
 
-// A file without a name is made and dropped, which finds what no permission tells.
+// A file without a name is made and dropped, which finds what permissions do not show.
 static int try_folder(const char *folder) {
   int in = open(folder, O_PATH | O_DIRECTORY | O_CLOEXEC);
   char *name = NULL;

@@ -374,7 +374,7 @@ static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTabl
     return false;
   }
   sb_text_table_take_header(table, (GString *const *)sample->line->pdata, table->header_lines);
-  // Marks between thousands are taken where a decimal mark tells them apart.
+  // Marks between thousands are taken where a decimal mark distinguishes them.
   const bool grouped = (fit.shape.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
   if (!grouped && fit.shape.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
     table->dialect.thousands = '\0';
