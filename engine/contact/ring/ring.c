@@ -45,13 +45,17 @@ static SbStatus check_clamped(const SbRingBody *body, const SbRingOutline *outli
                    0.5, 1.0 + STRETCH_MOST});
 }
 
-static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
-                           const SbRingLoad *load, SbReport *report) {
+static bool has_land(const SbRingLoad *load) {
+  return load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
+}
+
+// Checks each number of a load by itself.
+static SbStatus check_numbers(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {
   const int friction = SB_CONTACT_IN_DRAG, fluid = SB_CONTACT_IN_PRESSURE;
   const int edge = SB_CONTACT_IN_LAND_EDGE;
-  bool land = load->land_left > -HUGE_VAL || load->land_right < HUGE_VAL;
+  const bool land = has_land(load);
   const double width = load->wall_right - load->wall_left;
-  SbStatus status = SB_CHECK(
+  return SB_CHECK(
       report,
       {0, "the groove floor's radius [m]", body->inward ? 0.0 : load->floor_radius, SB_FINITE},
       {0, "the bore's radius [m]", load->bore_radius, SB_FINITE},
@@ -74,12 +78,12 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
       {fluid, "the pressure on the ring [Pa]", load->pressure_right, 0.0, 4.0 * body->modulus},
       {edge, "the chamfer [rad]", land ? load->chamfer_angle : 0.0, 0.0, 1.2},
       {edge, "the length of the land's edge [m]", land ? load->edge_length : 1.0, SB_ABOVE_ZERO});
-  if (status != SB_OK) {
-    return status;
-  }
-  if (body->inward) {
-    return check_clamped(body, outline, load, report);
-  }
+}
+
+// Checks the squeeze, the stretch and the room of a ring between its groove and the bore.
+static SbStatus check_groove(const SbRingBody *body, const SbRingOutline *outline,
+                             const SbRingLoad *load, SbReport *report) {
+  const double width = load->wall_right - load->wall_left;
   double space = load->bore_radius - load->floor_radius;
   if (!(space > 0.0)) {
     return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_BORE_DIAMETER,
@@ -89,7 +93,7 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
   }
   double floor = body->plane_strain ? 1.0 : load->floor_radius, d = body->section_diameter;
   double stretch = body->plane_strain ? 0.0 : 2.0 * load->floor_radius / body->inner_diameter - 1.0;
-  status = SB_CHECK(
+  SbStatus status = SB_CHECK(
       report, {SB_CONTACT_IN_RADIAL_SPACE, "the groove floor's radius [m]", floor, SB_ABOVE_ZERO},
       {SB_CONTACT_IN_INNER_DIAMETER, "the ring's stretch on the floor", stretch, -DBL_MAX,
        STRETCH_MOST},
@@ -110,12 +114,22 @@ static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
   const double room = load->groove != NULL && isfinite(width)
                           ? sb_groove_drawn_area(load->groove, width, space)
                           : width * space;
-  if (!land && isfinite(width) && area > 0.985 * room) {
+  if (!has_land(load) && isfinite(width) && area > 0.985 * room) {
     return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
                          "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
                          1e6 * area, 1e6 * room);
   }
   return SB_OK;
+}
+
+static SbStatus check_load(const SbRingBody *body, const SbRingOutline *outline,
+                           const SbRingLoad *load, SbReport *report) {
+  const SbStatus status = check_numbers(body, load, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  return body->inward ? check_clamped(body, outline, load, report)
+                      : check_groove(body, outline, load, report);
 }
 
 SbStatus sb_ring_check(const SbRingBody *body, const SbRingLoad *load, SbReport *report) {

@@ -155,6 +155,31 @@ static bool end_floor(SbGrooveLine *floor, const Point *last, double rise, const
   return true;
 }
 
+// Returns the first point of the wall behind point i, where the floor ends with this slope: not on
+// the corner's arc, nor on its remainder if an equally steep piece follows.
+static int wall_begin(const Row *row, int i, double slope) {
+  const double steep = fmax(STEEP, atan(slope) + APART);
+  while (i + 1 < row->count && direction(row, i) < steep && direction(row, i) > 0.0) {
+    i++;
+  }
+  int straight = i;
+  while (straight + 1 < row->count && row->at[straight].round) {
+    straight++;
+  }
+  const bool goes_on = straight + 1 < row->count && straight > 0 &&
+                       direction(row, straight) > direction(row, straight - 1) - CHORD;
+  return goes_on ? straight : i;
+}
+
+// Returns the last point of the wall that begins at point i; i if there is no wall.
+static int wall_end(const Row *row, int i) {
+  int end = row->count - 1;
+  while (end > i && fabs(direction(row, end - 1) - M_PI / 2) > LEAN) {
+    end--;
+  }
+  return end;
+}
+
 // Processes the right side of a row that rises from `lowest` on. *nearest: point at which its wall
 // is nearest; *top: its end point.
 static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, int *top,
@@ -173,22 +198,9 @@ static SbStatus side(SbGrooveLine *floor, SbGrooveLine *wall, double *nearest, i
     before = q->z - p->z;
   }
   const Point last = row->at[i];
-  const double rise = slope, steep = fmax(STEEP, atan(slope) + APART);
-  while (i + 1 < row->count && direction(row, i) < steep && direction(row, i) > 0.0) {
-    i++;
-  }
-  // Not with the remainder of the corner's arc, if an equally steep piece follows.
-  int straight = i;
-  while (straight + 1 < row->count && row->at[straight].round) {
-    straight++;
-  }
-  const bool goes_on = straight + 1 < row->count && straight > 0 &&
-                       direction(row, straight) > direction(row, straight - 1) - CHORD;
-  i = goes_on ? straight : i;
-  int end = row->count - 1;
-  while (end > i && fabs(direction(row, end - 1) - M_PI / 2) > LEAN) {
-    end--;
-  }
+  const double rise = slope;
+  i = wall_begin(row, i, slope);
+  const int end = wall_end(row, i);
   if (end <= i) {
     return fail(report, &row->at[row->count - 1], "has no wall steeper than 70 degrees that ends");
   }

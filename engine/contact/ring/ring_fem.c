@@ -298,6 +298,23 @@ SB_QUAD_INLINE void add_stiffness(System *s, const double a[5][5], const SbQuad 
   }
 }
 
+// Derivative of the stress with respect to the gradient and the hoop stretch, times a weight.
+SB_QUAD_INLINE void stress_slopes(double a[5][5], const Slopes *w, const double f[5],
+                                  const double cof[4], double weight) {
+  for (int i = 0; i < 4; i++) {
+    for (int j = 0; j < 4; j++) {
+      a[i][j] = weight * (2.0 * w->ad * (f[i] * cof[j] + cof[i] * f[j]) + w->dd * cof[i] * cof[j]);
+    }
+    a[i][i] += weight * 2.0 * w->a;
+    a[i][4] = a[4][i] = weight * (2.0 * w->af * f[i] + w->df * cof[i]);
+  }
+  a[4][4] = weight * w->ff;
+  a[0][3] += weight * w->d;
+  a[3][0] += weight * w->d;
+  a[1][2] -= weight * w->d;
+  a[2][1] -= weight * w->d;
+}
+
 // False if the element is turned inside out. `balance`: of its tangent only what the bubble enters.
 SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s, bool balance) {
   double local[2 * SHAPES];
@@ -322,19 +339,7 @@ SB_QUAD_INLINE bool element_system(SbRingFem *fem, int e, System *s, bool balanc
     Slopes w;
     double cof[4], stress[5], a[5][5];
     piola(fem, f, p, &w, cof, stress);
-    for (int i = 0; i < 4; i++) {
-      for (int j = 0; j < 4; j++) {
-        a[i][j] = weight * (2.0 * w.ad * (f[i] * cof[j] + cof[i] * f[j]) + w.dd * cof[i] * cof[j]);
-      }
-      a[i][i] += weight * 2.0 * w.a;
-      a[i][4] = a[4][i] = weight * (2.0 * w.af * f[i] + w.df * cof[i]);
-    }
-    a[4][4] = weight * w.ff;
-    a[0][3] += weight * w.d;
-    a[3][0] += weight * w.d;
-    a[1][2] -= weight * w.d;
-    a[2][1] -= weight * w.d;
-
+    stress_slopes(a, &w, f, cof, weight);
     SbQuad g[6];
     for (int m = 0; m < 6; m++) {
       g[m] = *(const SbQuadAt *)&point[4 * m];

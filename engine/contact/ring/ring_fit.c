@@ -102,6 +102,107 @@ static SbStatus slowly(SbRing **ring, SbRingResult *path_end, double size,
   return status;
 }
 
+// Refines the mesh until the estimated error of the load is at most `enough`. *size: size of the
+// first of these meshes; afterwards that of the mesh that was good enough or did not converge.
+static SbStatus refine(SbRing *ring, SbRingResult *result, double *size, double enough,
+                       double floor_load, SbReport *report) {
+  for (int i = 0; i < REFINEMENTS; i++) {
+    const SbRingResult coarse = *result;
+    const SbStatus status = sb_ring_refit(ring, *size, report);
+    if (status != SB_OK) {
+      return status;
+    }
+    sb_ring_result(ring, result);
+    estimate(result, &coarse, ring, *size, floor_load);
+    if (result->error.load <= enough || *size <= SIZE_LEAST) {
+      break;
+    }
+    *size = fmax(SIZE_LEAST, RATIO * *size);
+  }
+  return SB_OK;
+}
+
+// Estimates the errors of a result whose finer mesh, of this size, did not converge. `unfitted`:
+// smallest error of the load.
+static void estimate_unrefined(SbRingResult *result, double unfitted, double floor_load,
+                               double size) {
+  result->error.load = fmax(unfitted, fmax(result->error.load, 4.0 * floor_load * size / SIZE));
+  result->error.peak = fmax(result->error.peak, 4e-3 * size / SIZE);
+  result->error.width = fmax(result->error.width, 6e-3 * size / SIZE);
+}
+
+// Warns of a surface that creases, with the error of the load that a crease or nearly one causes,
+// and of a section that has rolled.
+static void check_shape(SbRingResult *result, const SbRing *ring, double size,
+                        SbWarnings *warnings) {
+  const double crease = sb_ring_crease(ring->contact);
+  if (crease > SB_RING_CREASE) {
+    sb_warn(warnings, "surface-creases", SB_CONTACT_IN_PROFILE,
+            "the free surface is pressed to %.2f of its length somewhere, where rubber creases "
+            "(from %.2f on): the ring is solved with a smooth one",
+            1.0 / sqrt(crease), 1.0 / sqrt(SB_RING_CREASE));
+  }
+  if (crease > NEAR_CREASE * SB_RING_CREASE) {
+    result->error.load = fmax(result->error.load, CREASED * size);
+  }
+  const double turn = fabs(sb_ring_turn(ring->contact, NULL, NULL, NULL));
+  if (ring->load.bore_slides == 0 && !sb_ring_is_circle(ring) && turn > ROLLED) {
+    sb_warn(warnings, "section-rolled", SB_CONTACT_IN_PROFILE,
+            "the section has rolled by %.0f degrees as it was fitted: another state of another "
+            "load, upright, may exist next to it",
+            turn * 180.0 / M_PI);
+  }
+}
+
+// Adds the errors of the friction to those of the mesh. `path_end`: result on the mesh of the path.
+static void add_friction_errors(SbRingResult *result, const SbRing *ring,
+                                const SbRingResult *path_end) {
+  if (ring->load.bore_slides != 0) {
+    // The last two meshes may have the same node at the peak, whose pressure the friction along the
+    // path determines. The path's mesh is as fine as they are, so that the full change is the
+    // error.
+    const double moved = change(result->pressure_peak, path_end->pressure_peak);
+    result->error.peak = fmax(result->error.peak, moved);
+  }
+  // Error of a lip that the fluid nearly lifts: small at an end of a contact, large along a flat
+  // one.
+  const double lack = sb_ring_friction_lack(ring);
+  if (lack > LACK) {
+    result->error.load = fmax(result->error.load, lack);
+  }
+  // Deviation of single nodes from Coulomb's law.
+  result->error.load = fmax(result->error.load, result->friction_excess / result->bore_force);
+}
+
+// Refines a ring that has contact with the bore, and estimates the errors of its result. `fitted`:
+// status of the ring's first fitted mesh; size: that of the next one; `wanted` and `tolerance`: of
+// the options.
+static SbStatus fit_contact(SbRing *ring, SbRingResult *result, const SbRingResult *path_end,
+                            SbStatus fitted, double size, double wanted, double tolerance,
+                            SbWarnings *warnings, SbReport *report) {
+  const SbRingLoad *load = &ring->load;
+  const bool slides = load->bore_slides != 0,
+             edges = load->wall_chamfer > 0.0 || load->groove != NULL;
+  const double floor_load =
+      fmax(load_floor(&ring->body, load), fluid_floor(result, &ring->body, load));
+  SbStatus status = fitted;
+  if (status == SB_OK) {
+    // Beyond its first mesh a sliding ring needs no more than what is wanted: finer ones stumble.
+    status = refine(ring, result, &size, slides ? wanted : tolerance, floor_load, report);
+  }
+  if (status == SB_ERROR_NOT_CONVERGED) { // the coarser solution is used, with its error
+    const double off = edges ? UNFITTED_CHAMFER : UNFITTED;
+    estimate_unrefined(result, fitted != SB_OK && slides ? off : 0.0, floor_load, size);
+    status = SB_OK;
+  }
+  if (status == SB_OK) {
+    check_shape(result, ring, size, warnings);
+    add_friction_errors(result, ring, path_end);
+    result->missed = result->error.load > wanted;
+  }
+  return status;
+}
+
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
                      SbReport *report) {
@@ -115,9 +216,6 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
     return sb_fail(report, SB_ERROR_RANGE, "the ring's tolerance %g is outside 1e-5 .. 0.1",
                    tolerance);
   }
-  // Beyond its first mesh a sliding ring needs no more than what is wanted: finer ones stumble.
-  const double enough = load->bore_slides != 0 ? wanted : tolerance;
-  double floor_load = load_floor(body, load);
   double size = sb_ring_fit_size(body, load, tolerance);
   // A dragged ring follows its path on this mesh.
   const double path = first.element_size > 0.0 ? first.element_size : SIZE / RATIO;
@@ -136,10 +234,6 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   if (status == SB_ERROR_NOT_CONVERGED && ring->soft) {
     status = slowly(&ring, &path_end, size / RATIO, &first, report);
   }
-  const bool edges = load->wall_chamfer > 0.0 || load->groove != NULL;
-  const double off = edges ? UNFITTED_CHAMFER : UNFITTED;
-  const double unfitted = status != SB_OK && load->bore_slides != 0 ? off : 0.0;
-  SbRingResult coarse;
   sb_ring_result(ring, result);
   if (!result->touching) {
     sb_warn(warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
@@ -148,60 +242,8 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
                                                                       : "",
             1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));
   } else {
-    floor_load = fmax(floor_load, fluid_floor(result, body, load));
-    for (int i = 0; status == SB_OK && i < REFINEMENTS; i++) {
-      coarse = *result;
-      status = sb_ring_refit(ring, size, report);
-      if (status != SB_OK) {
-        break;
-      }
-      sb_ring_result(ring, result);
-      estimate(result, &coarse, ring, size, floor_load);
-      if (result->error.load <= enough || size <= SIZE_LEAST) {
-        break;
-      }
-      size = fmax(SIZE_LEAST, RATIO * size);
-    }
-    if (status == SB_ERROR_NOT_CONVERGED) {
-      // The finer mesh failed: the coarser solution is used, with its error.
-      result->error.load = fmax(unfitted, fmax(result->error.load, 4.0 * floor_load * size / SIZE));
-      result->error.peak = fmax(result->error.peak, 4e-3 * size / SIZE);
-      result->error.width = fmax(result->error.width, 6e-3 * size / SIZE);
-      status = SB_OK;
-    }
-    if (load->bore_slides != 0) {
-      // The last two meshes may have the same node at the peak, whose pressure the friction along
-      // the path determines. The path's mesh is as fine as they are, so that the full change is the
-      // error.
-      const double moved = change(result->pressure_peak, path_end.pressure_peak);
-      result->error.peak = fmax(result->error.peak, moved);
-    }
-    const double crease = status == SB_OK ? sb_ring_crease(ring->contact) : 1.0;
-    if (crease > SB_RING_CREASE) {
-      sb_warn(warnings, "surface-creases", SB_CONTACT_IN_PROFILE,
-              "the free surface is pressed to %.2f of its length somewhere, where rubber creases "
-              "(from %.2f on): the ring is solved with a smooth one",
-              1.0 / sqrt(crease), 1.0 / sqrt(SB_RING_CREASE));
-    }
-    if (crease > NEAR_CREASE * SB_RING_CREASE) {
-      result->error.load = fmax(result->error.load, CREASED * size);
-    }
-    const double turn = fabs(sb_ring_turn(ring->contact, NULL, NULL, NULL));
-    if (load->bore_slides == 0 && !sb_ring_is_circle(ring) && turn > ROLLED) {
-      sb_warn(warnings, "section-rolled", SB_CONTACT_IN_PROFILE,
-              "the section has rolled by %.0f degrees as it was fitted: another state of another "
-              "load, upright, may exist next to it",
-              turn * 180.0 / M_PI);
-    }
-    // Error of a lip that the fluid nearly lifts: small at an end of a contact, large along a flat
-    // one.
-    const double lack = status == SB_OK ? sb_ring_friction_lack(ring) : 0.0;
-    if (lack > LACK) {
-      result->error.load = fmax(result->error.load, lack);
-    }
-    // Deviation of single nodes from Coulomb's law.
-    result->error.load = fmax(result->error.load, result->friction_excess / result->bore_force);
-    result->missed = status == SB_OK && result->error.load > wanted;
+    status =
+        fit_contact(ring, result, &path_end, status, size, wanted, tolerance, warnings, report);
   }
   if (status != SB_OK) {
     sb_ring_destroy(ring);

@@ -109,55 +109,88 @@ static double angle_at(double place, const double end[2]) {
   return share < 0.5 ? 2.0 * asin(sqrt(share)) : M_PI - 2.0 * asin(sqrt((end[1] - place) / width));
 }
 
-// Coefficients for given ends; the residual per root of the area, and its mean square over that of
-// the nodal pressures. Negative if there is none.
-static double solve(Fit *fit, const double end[2], double *residual) {
-  enum { N = TERMS_MOST + 1 };
-  int terms = fit->terms, order = terms + 1;
-  double middle = 0.5 * (end[0] + end[1]), half = 0.5 * (end[1] - end[0]);
-  double total[TERMS_MOST] = {0.0}, load = 0.0;
+// Adds one point of a side to the nodal forces of the terms, fit->matrix, and to their totals, and
+// subtracts that of the ends' pressure from the known forces, from row i on. Returns the force of
+// the ends' pressure. `weight`: of the point in t.
+static inline double add_point(Fit *fit, double total[TERMS_MOST], const double end[2], int i,
+                               double t, double weight) {
+  const double *x = &fit->x[i], *r = &fit->r[i], *z = &fit->z[i];
+  const double middle = 0.5 * (end[0] + end[1]), half = 0.5 * (end[1] - end[0]);
+  const int terms = fit->terms;
+  double c = cos(t), s = sin(t);
+  double at = middle - half * c, n[3], d[3];
+  sb_ring_side_at(x, at, n, d);
+  double across = sb_ring_side_sum(d, z) / sb_ring_side_sum(d, x);
+  double area =
+      weight * half * s * sqrt(1.0 + across * across) * fit->turn * sb_ring_side_sum(n, r);
+  double known = fit->end_pressure[0] * (1.0 - t / M_PI) + fit->end_pressure[1] * t / M_PI;
+  if (!fit->closed[i]) {
+    known -= fit->end_pressure[at < middle ? 0 : 1];
+  }
+  // sin((k + 1) t) by its recurrence.
+  double wave[TERMS_MOST], before = 0.0, now = s;
+  for (int k = 0; k < terms; k++) {
+    wave[k] = area * now;
+    total[k] += wave[k];
+    double next = 2.0 * c * now - before;
+    before = now;
+    now = next;
+  }
+  for (int b = 0; b < 3; b++) {
+    fit->known[i + b] -= n[b] * area * known;
+    for (int k = 0; k < terms; k++) {
+      fit->matrix[i + b][k] += n[b] * wave[k];
+    }
+  }
+  return area * known;
+}
+
+// Computes the nodal forces of each term for given ends, fit->matrix, their totals, and the nodal
+// forces that remain for the terms, fit->known. Returns the total of the latter.
+static double integrate(Fit *fit, const double end[2], double total[TERMS_MOST]) {
+  double load = 0.0;
   memset(fit->matrix, 0, sizeof fit->matrix[0] * (size_t)fit->rows);
   memcpy(fit->known, fit->force, sizeof fit->known[0] * (size_t)fit->rows);
   for (int i = 0; i < fit->rows; i++) {
     load += fit->force[i];
   }
   for (int i = 0; i + 2 < fit->rows; i += 2) {
-    const double *x = &fit->x[i], *r = &fit->r[i], *z = &fit->z[i];
-    double low = fmax(x[0], end[0]), high = fmin(x[2], end[1]);
+    double low = fmax(fit->x[i], end[0]), high = fmin(fit->x[i + 2], end[1]);
     if (!(high > low)) {
       continue;
     }
     double from = angle_at(low, end), to = angle_at(high, end);
     for (int q = 0; q < POINTS; q++) {
-      double t = 0.5 * (from + to) + 0.5 * (to - from) * SB_RING_X4[q], c = cos(t), s = sin(t);
-      double at = middle - half * c, n[3], d[3];
-      sb_ring_side_at(x, at, n, d);
-      double across = sb_ring_side_sum(d, z) / sb_ring_side_sum(d, x);
-      double area = 0.5 * (to - from) * SB_RING_W4[q] * half * s * sqrt(1.0 + across * across) *
-                    fit->turn * sb_ring_side_sum(n, r);
-      double known = fit->end_pressure[0] * (1.0 - t / M_PI) + fit->end_pressure[1] * t / M_PI;
-      if (!fit->closed[i]) {
-        known -= fit->end_pressure[at < middle ? 0 : 1];
-      }
-      // sin((k + 1) t) by its recurrence.
-      double wave[TERMS_MOST], before = 0.0, now = s;
-      for (int k = 0; k < terms; k++) {
-        wave[k] = area * now;
-        total[k] += wave[k];
-        double next = 2.0 * c * now - before;
-        before = now;
-        now = next;
-      }
-      load -= area * known;
-      for (int b = 0; b < 3; b++) {
-        fit->known[i + b] -= n[b] * area * known;
-        for (int k = 0; k < terms; k++) {
-          fit->matrix[i + b][k] += n[b] * wave[k];
-        }
-      }
+      double t = 0.5 * (from + to) + 0.5 * (to - from) * SB_RING_X4[q];
+      load -= add_point(fit, total, end, i, t, 0.5 * (to - from) * SB_RING_W4[q]);
     }
   }
-  double normal[N * N] = {0.0}, b[N] = {0.0};
+  return load;
+}
+
+// Computes the residuals per root of the area. Returns their mean square over that of the nodal
+// pressures, negative if these are zero.
+static double misfit(const Fit *fit, double *residual) {
+  double left = 0.0, whole = 0.0;
+  for (int i = 0; i < fit->rows; i++) {
+    double rest = fit->known[i];
+    for (int k = 0; k < fit->terms; k++) {
+      rest -= fit->matrix[i][k] * fit->a[k];
+    }
+    residual[i] = fit->fits[i] ? rest / sqrt(fit->area[i]) : 0.0;
+    left += residual[i] * residual[i];
+    whole += fit->fits[i] ? fit->force[i] * fit->force[i] / fit->area[i] : 0.0;
+  }
+  return whole > 0.0 ? left / whole : -1.0;
+}
+
+// Coefficients for given ends; the residual per root of the area, and its mean square over that of
+// the nodal pressures. Negative if there is none.
+static double solve(Fit *fit, const double end[2], double *residual) {
+  enum { N = TERMS_MOST + 1 };
+  int terms = fit->terms, order = terms + 1;
+  double total[TERMS_MOST] = {0.0}, normal[N * N] = {0.0}, b[N] = {0.0};
+  const double load = integrate(fit, end, total);
   for (int i = 0; i < fit->rows; i++) {
     for (int k = 0; k < terms && fit->fits[i]; k++) {
       double weighted = fit->matrix[i][k] / fit->area[i];
@@ -175,17 +208,7 @@ static double solve(Fit *fit, const double end[2], double *residual) {
     return -1.0;
   }
   memcpy(fit->a, b, sizeof fit->a[0] * (size_t)terms);
-  double left = 0.0, whole = 0.0;
-  for (int i = 0; i < fit->rows; i++) {
-    double rest = fit->known[i];
-    for (int k = 0; k < terms; k++) {
-      rest -= fit->matrix[i][k] * fit->a[k];
-    }
-    residual[i] = fit->fits[i] ? rest / sqrt(fit->area[i]) : 0.0;
-    left += residual[i] * residual[i];
-    whole += fit->fits[i] ? fit->force[i] * fit->force[i] / fit->area[i] : 0.0;
-  }
-  return whole > 0.0 ? left / whole : -1.0;
+  return misfit(fit, residual);
 }
 
 // Gauss-Newton's move of both ends from where the residual is `here`; false if there is none.

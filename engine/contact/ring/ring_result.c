@@ -178,6 +178,78 @@ const char *sb_ring_state_name(SbRingState state) {
   return names[state];
 }
 
+// Extent of the section, and the smallest excess of a contact's pressure over the fluid's.
+typedef struct {
+  double low[2], high[2], least;
+} Extent;
+
+// Sums the radial and axial forces of the contacts on each surface, and finds the largest
+// penetration. Returns the fluid's axial force.
+static double sum_forces(double force[SB_RING_SURFACES][2], Extent *extent, SbRingResult *out,
+                         const SbRing *ring) {
+  const SbRingContact *contact = ring->contact;
+  double axial = 0.0;
+  *extent = (Extent){{HUGE_VAL, HUGE_VAL}, {-HUGE_VAL, -HUGE_VAL}, HUGE_VAL};
+  for (int i = 0; i < contact->count; i++) {
+    double x[2];
+    sb_ring_contact_place(contact, i, x);
+    for (int k = 0; k < 2; k++) {
+      extent->low[k] = fmin(extent->low[k], x[k]);
+      extent->high[k] = fmax(extent->high[k], x[k]);
+    }
+    axial += contact->fluid[2 * i + 1];
+    for (int s = 0; s < SB_RING_SURFACES; s++) {
+      SbRingFrame frame = sb_ring_frame(&contact->is.now, (SbRingSurface)s, x);
+      const SbRingTouch *touch = sb_ring_touch(contact, i, s);
+      out->penetration = fmax(out->penetration, -frame.gap * ring->length);
+      if (touch->held) {
+        const double *share = &contact->share[2 * i];
+        double excess = touch->force - frame.n[0] * share[0] - frame.n[1] * share[1];
+        extent->least = fmin(extent->least, excess / contact->weight[i]);
+        for (int k = 0; k < 2; k++) {
+          force[s][k] += touch->force * frame.n[k] + touch->tangent * frame.t[k];
+        }
+      }
+    }
+  }
+  return axial;
+}
+
+// Finds the contact with one surface and its pressure; without a smooth curve the peak of the nodal
+// pressures, and count = 0. Returns whether there is contact.
+static bool find_contact(const SbRing *ring, SbRingSurface surface, SbRingPatch *patch,
+                         SbDryContact *smooth) {
+  const bool touching = sb_ring_patch(ring, surface, patch);
+  smooth->peak = 0.0;
+  smooth->count = 0;
+  if (touching && !sb_ring_ends(ring, surface, patch, smooth)) {
+    smooth->count = 0;
+    for (int i = patch->first; i <= patch->last; i++) {
+      smooth->peak = fmax(smooth->peak, sb_ring_node_pressure(ring, i, surface));
+    }
+  }
+  return touching;
+}
+
+// Returns the imbalance of the axial forces divided by the largest force. `axial`: the fluid's.
+static double axial_imbalance(double force[SB_RING_SURFACES][2], double axial) {
+  double most = fabs(axial);
+  for (int s = 0; s < SB_RING_SURFACES; s++) {
+    axial += force[s][1];
+    most = fmax(most, fmax(fabs(force[s][1]), fabs(force[s][0])));
+  }
+  return most > 0.0 ? fabs(axial) / most : 0.0;
+}
+
+// Returns the relative change of the section's volume.
+static double volume_change(const SbRing *ring) {
+  double reference = 0.0;
+  for (int i = 0; i < ring->mesh->nodes; i++) {
+    reference += ring->fem->mass[i];
+  }
+  return ring->fem->volume / reference - 1.0;
+}
+
 void sb_ring_result(const SbRing *ring, SbRingResult *out) {
   const SbRingContact *contact = ring->contact;
   *out = (SbRingResult){.turn = contact->is.turn,
@@ -185,45 +257,15 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
                         .newton_iterations = ring->count.iterations,
                         .load_steps = ring->count.steps,
                         .rejected_steps = ring->count.rejected};
-  double l = ring->length, f = ring->force, force[SB_RING_SURFACES][2] = {{0.0}};
-  // Forces, extents, penetration, smallest excess pressure.
-  double low[2] = {HUGE_VAL, HUGE_VAL}, high[2] = {-HUGE_VAL, -HUGE_VAL}, least = HUGE_VAL;
-  double axial = 0.0;
-  for (int i = 0; i < contact->count; i++) {
-    double x[2];
-    sb_ring_contact_place(contact, i, x);
-    for (int k = 0; k < 2; k++) {
-      low[k] = fmin(low[k], x[k]);
-      high[k] = fmax(high[k], x[k]);
-    }
-    axial += contact->fluid[2 * i + 1];
-    for (int s = 0; s < SB_RING_SURFACES; s++) {
-      SbRingFrame frame = sb_ring_frame(&contact->is.now, (SbRingSurface)s, x);
-      const SbRingTouch *touch = sb_ring_touch(contact, i, s);
-      out->penetration = fmax(out->penetration, -frame.gap * l);
-      if (touch->held) {
-        const double *share = &contact->share[2 * i];
-        double excess = touch->force - frame.n[0] * share[0] - frame.n[1] * share[1];
-        least = fmin(least, excess / contact->weight[i]);
-        for (int k = 0; k < 2; k++) {
-          force[s][k] += touch->force * frame.n[k] + touch->tangent * frame.t[k];
-        }
-      }
-    }
-  }
+  const double l = ring->length, f = ring->force;
+  double force[SB_RING_SURFACES][2] = {{0.0}};
+  Extent extent;
+  const double axial = sum_forces(force, &extent, out, ring);
   SbRingPatch patch[2] = {0}; // bore and floor
   SbDryContact smooth[2];
   for (int s = SB_RING_FLOOR; s >= SB_RING_BORE; s--) {
-    out->touching = sb_ring_patch(ring, (SbRingSurface)s, &patch[s]);
-    smooth[s].peak = 0.0;
-    smooth[s].count = 0;
+    out->touching = find_contact(ring, (SbRingSurface)s, &patch[s], &smooth[s]);
     if (out->touching) {
-      if (!sb_ring_ends(ring, (SbRingSurface)s, &patch[s], &smooth[s])) {
-        smooth[s].count = 0;
-        for (int i = patch[s].first; i <= patch[s].last; i++) {
-          smooth[s].peak = fmax(smooth[s].peak, sb_ring_node_pressure(ring, i, (SbRingSurface)s));
-        }
-      }
       force[s][0] +=
           (s == SB_RING_BORE ? -1.0 : 1.0) * end_share(ring, (SbRingSurface)s, &patch[s]);
     }
@@ -245,21 +287,12 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out) {
                              : 0.0;
   out->contact_left = patch[SB_RING_BORE].place[0] * l;
   out->contact_right = patch[SB_RING_BORE].place[1] * l;
-  out->pressure_least = isfinite(least) ? least * ring->stress : 0.0;
-  out->thickness = (high[0] - low[0]) * l;
-  out->axial_left = low[1] * l;
-  out->axial_right = high[1] * l;
-  double axial_most = fabs(axial);
-  for (int s = 0; s < SB_RING_SURFACES; s++) {
-    axial += force[s][1];
-    axial_most = fmax(axial_most, fmax(fabs(force[s][1]), fabs(force[s][0])));
-  }
-  out->axial_imbalance = axial_most > 0.0 ? fabs(axial) / axial_most : 0.0;
+  out->pressure_least = isfinite(extent.least) ? extent.least * ring->stress : 0.0;
+  out->thickness = (extent.high[0] - extent.low[0]) * l;
+  out->axial_left = extent.low[1] * l;
+  out->axial_right = extent.high[1] * l;
+  out->axial_imbalance = axial_imbalance(force, axial);
   out->friction_excess = contact->slip_excess * f;
   out->fault = out->bore_force > 0.0 ? ring->fault * f / out->bore_force : 0.0;
-  double reference = 0.0;
-  for (int i = 0; i < ring->mesh->nodes; i++) {
-    reference += ring->fem->mass[i];
-  }
-  out->volume_change = ring->fem->volume / reference - 1.0;
+  out->volume_change = volume_change(ring);
 }

@@ -15,72 +15,99 @@
 static const double RESIDUAL_MOST = 1e-11;
 enum { REFINEMENTS = 3 };
 
-// Node neighbours, where each element's blocks go, where the diagonal blocks are.
-SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
+// Returns the number of blocks to allocate: each element has its own in its rows, although
+// neighbours share theirs, and nodes in one hollow, which may have contact, have one for each pair.
+static size_t count_blocks(const SbRingFem *fem) {
   const SbRingMesh *mesh = fem->mesh;
-  size_t nodes = (size_t)mesh->nodes, corners = 6 * (size_t)mesh->elements;
-  fem->hollow = malloc(sizeof(int) * ((size_t)mesh->loop_count + 1));
-  if (fem->hollow == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
-  }
-  sb_ring_hollows(fem->hollow, mesh);
-  // Space for rows in which each element has its own blocks, although neighbours share theirs, and
-  // for those of nodes in one hollow, which may have contact.
-  size_t most = 6 * corners;
+  size_t most = 36 * (size_t)mesh->elements;
   for (int i = 0; i < mesh->loop_count; i++) {
     for (int k = 0; k < mesh->loop_count && fem->hollow[i] != 0; k++) {
       most += fem->hollow[k] == fem->hollow[i] ? 1 : 0;
     }
   }
-  fem->row_start = malloc(sizeof(int) * (nodes + 1));
-  fem->scatter = malloc(sizeof(int) * most);
-  fem->diagonal = malloc(sizeof(int) * nodes);
-  fem->column = malloc(sizeof(int) * most);
-  // The elements' corners at each node, as lists; of a row's neighbours, which row last had each
-  // and where.
-  int *next = malloc(sizeof(int) * (corners + 4 * nodes));
-  int *first = next + corners, *seen = first + nodes, *place = seen + nodes, at = 0;
-  int *by = place + nodes; // its place on the boundary, -1: inside
-  if (fem->row_start == NULL || fem->scatter == NULL || fem->diagonal == NULL ||
-      fem->column == NULL || next == NULL) {
-    free(next);
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");
+  return most;
+}
+
+// Work memory of a pattern: the elements' corners at each node, as lists; of a row's neighbours,
+// which row last had each and where; the place of a node on the boundary, -1: inside.
+typedef struct {
+  int *next, *first, *seen, *place, *by; // next: owned, with the memory of the others
+} Lists;
+
+static bool create_lists(Lists *l, const SbRingMesh *mesh) {
+  const size_t nodes = (size_t)mesh->nodes, corners = 6 * (size_t)mesh->elements;
+  l->next = malloc(sizeof(int) * (corners + 4 * nodes));
+  if (l->next == NULL) {
+    return false;
   }
-  memset(first, -1, sizeof(int) * 2 * nodes);
-  memset(by, -1, sizeof(int) * nodes);
+  l->first = l->next + corners;
+  l->seen = l->first + nodes;
+  l->place = l->seen + nodes;
+  l->by = l->place + nodes;
+  memset(l->first, -1, sizeof(int) * 2 * nodes);
+  memset(l->by, -1, sizeof(int) * nodes);
   for (int i = 0; i < mesh->loop_count; i++) {
-    by[mesh->loop[i]] = i;
+    l->by[mesh->loop[i]] = i;
   }
   for (int i = (int)corners - 1; i >= 0; i--) {
-    next[i] = first[mesh->tri[i]];
-    first[mesh->tri[i]] = i;
+    l->next[i] = l->first[mesh->tri[i]];
+    l->first[mesh->tri[i]] = i;
   }
+  return true;
+}
+
+// Writes the pattern's rows: node neighbours, where each element's blocks go, where the diagonal
+// blocks are. Returns the number of blocks.
+static int write_rows(SbRingFem *fem, const Lists *l) {
+  const SbRingMesh *mesh = fem->mesh;
+  int at = 0;
   for (int i = 0; i < mesh->nodes; i++) {
     fem->row_start[i] = at;
-    for (int c = first[i]; c >= 0; c = next[c]) {
+    for (int c = l->first[i]; c >= 0; c = l->next[c]) {
       for (int b = 0; b < 6; b++) {
         int other = mesh->tri[c / 6 * 6 + b];
-        if (seen[other] != i) {
-          seen[other] = i;
-          place[other] = at;
+        if (l->seen[other] != i) {
+          l->seen[other] = i;
+          l->place[other] = at;
           fem->column[at++] = other;
         }
-        fem->scatter[6 * c + b] = place[other];
+        fem->scatter[6 * c + b] = l->place[other];
       }
     }
-    for (int k = 0; by[i] >= 0 && fem->hollow[by[i]] != 0 && k < mesh->loop_count; k++) {
+    const int by = l->by[i];
+    for (int k = 0; by >= 0 && fem->hollow[by] != 0 && k < mesh->loop_count; k++) {
       const int other = mesh->loop[k];
-      if (fem->hollow[k] == fem->hollow[by[i]] && seen[other] != i) {
-        seen[other] = i;
+      if (fem->hollow[k] == fem->hollow[by] && l->seen[other] != i) {
+        l->seen[other] = i;
         fem->column[at++] = other;
       }
     }
-    fem->diagonal[i] = place[i];
+    fem->diagonal[i] = l->place[i];
   }
-  fem->row_start[nodes] = at;
-  free(next);
-  fem->value = malloc(sizeof(double) * SB_RING_BLOCK * (size_t)at); // cleared where it is assembled
-  fem->raw = calloc(SB_RING_BLOCK * (size_t)at, sizeof(double));
+  fem->row_start[mesh->nodes] = at;
+  return at;
+}
+
+SbStatus sb_ring_sparse_create(SbRingFem *fem, SbReport *report) {
+  const SbRingMesh *mesh = fem->mesh;
+  const size_t nodes = (size_t)mesh->nodes;
+  Lists lists = {0};
+  fem->hollow = malloc(sizeof(int) * ((size_t)mesh->loop_count + 1));
+  if (fem->hollow != NULL) {
+    sb_ring_hollows(fem->hollow, mesh);
+    const size_t most = count_blocks(fem);
+    fem->row_start = malloc(sizeof(int) * (nodes + 1));
+    fem->scatter = malloc(sizeof(int) * most);
+    fem->diagonal = malloc(sizeof(int) * nodes);
+    fem->column = malloc(sizeof(int) * most);
+  }
+  if (fem->row_start != NULL && fem->scatter != NULL && fem->diagonal != NULL &&
+      fem->column != NULL && create_lists(&lists, mesh)) {
+    const size_t blocks = (size_t)write_rows(fem, &lists);
+    fem->value = malloc(sizeof(double) * SB_RING_BLOCK * blocks); // cleared where it is assembled
+    fem->raw = calloc(SB_RING_BLOCK * blocks, sizeof(double));
+  }
+  free(lists.next);
   return fem->value != NULL && fem->raw != NULL
              ? SB_OK
              : sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's matrix");

@@ -566,12 +566,10 @@ static int compare(const void *a, const void *b) {
   return (p->key > q->key) - (p->key < q->key);
 }
 
-// Writes the triangles in strips, so that a search from a near one is short.
-static SbStatus write_mesh(SbRingMesh **out, const Builder *b, Ordered *order, SbReport *report) {
+// Orders the triangles in strips, so that a search from a near one is short. Returns their number.
+static int order_triangles(Ordered *order, const Builder *b) {
   static const double STRIP = 0.06;
-  const SbRingMeshPlan *plan = b->plan;
-  const SbRingOutline *outline = plan->outline;
-  int count = 0, used = 0;
+  int count = 0;
   for (int i = 0; i < b->triangles; i++) {
     const Triangle *t = &b->t[i];
     if (!t->dead && t->inside) {
@@ -581,35 +579,29 @@ static SbStatus write_mesh(SbRingMesh **out, const Builder *b, Ordered *order, S
     }
   }
   qsort(order, (size_t)count, sizeof *order, compare);
-  SbRingMesh *mesh = *out = sb_ring_mesh_allocate(b->points, count, 2 * b->sides);
-  if (mesh == NULL) {
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
-  }
+  return count;
+}
+
+// Writes the vertices: those of the boundary on the outline, without the three far ones after them.
+static void write_vertices(SbRingMesh *mesh, const Builder *b) {
+  int used = 0;
   for (int i = 0; i < b->points; i++) {
     if (i >= b->sides && i < b->sides + 3) {
       continue;
     }
     double x[2] = {b->x[i][0], b->x[i][1]};
     if (i < b->sides) {
-      sb_ring_outline_place(outline, b->arc[i], x);
+      sb_ring_outline_place(b->plan->outline, b->arc[i], x);
     }
-    mesh->x[2 * used] = plan->centre + x[0];
+    mesh->x[2 * used] = b->plan->centre + x[0];
     mesh->x[2 * used++ + 1] = x[1];
   }
   mesh->nodes = used;
-  for (int i = 0; i < count; i++) {
-    int v[3];
-    for (int k = 0; k < 3; k++) {
-      v[k] = b->t[order[i].at].v[k];
-      v[k] -= v[k] >= b->sides ? 3 : 0;
-    }
-    (void)sb_ring_mesh_add(mesh, v[0], v[1], v[2]);
-  }
-  SbStatus status = sb_ring_mesh_add_midsides(mesh, report);
-  if (status != SB_OK) {
-    return status;
-  }
-  // The boundary in order, its mid-side nodes on the outline.
+}
+
+// Writes the boundary in order, its mid-side nodes on the outline.
+static void write_boundary(SbRingMesh *mesh, const Builder *b) {
+  const SbRingOutline *outline = b->plan->outline;
   mesh->loop_count = 2 * b->sides;
   for (int i = 0; i < b->sides; i++) {
     mesh->loop[2 * i] = i;
@@ -625,14 +617,35 @@ static SbStatus write_mesh(SbRingMesh **out, const Builder *b, Ordered *order, S
     double middle = 0.5 * (b->arc[i] + next);
     int node = mesh->loop[2 * i + 1];
     sb_ring_outline_place(outline, middle, x);
-    mesh->x[2 * node] = plan->centre + x[0];
+    mesh->x[2 * node] = b->plan->centre + x[0];
     mesh->x[2 * node + 1] = x[1];
     mesh->angle[2 * i] = sb_ring_outline_angle(outline, b->arc[i]);
     mesh->angle[2 * i + 1] = sb_ring_outline_angle(outline, middle);
   }
   mesh->arc[0] = outline->bore / M_PI;
   mesh->arc[1] = (outline->length - outline->bore) / M_PI;
-  return SB_OK;
+}
+
+static SbStatus write_mesh(SbRingMesh **out, const Builder *b, Ordered *order, SbReport *report) {
+  const int count = order_triangles(order, b);
+  SbRingMesh *mesh = *out = sb_ring_mesh_allocate(b->points, count, 2 * b->sides);
+  if (mesh == NULL) {
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for the ring's mesh");
+  }
+  write_vertices(mesh, b);
+  for (int i = 0; i < count; i++) {
+    int v[3];
+    for (int k = 0; k < 3; k++) {
+      v[k] = b->t[order[i].at].v[k];
+      v[k] -= v[k] >= b->sides ? 3 : 0;
+    }
+    (void)sb_ring_mesh_add(mesh, v[0], v[1], v[2]);
+  }
+  const SbStatus status = sb_ring_mesh_add_midsides(mesh, report);
+  if (status == SB_OK) {
+    write_boundary(mesh, b);
+  }
+  return status;
 }
 
 static SbStatus build(SbRingMesh **out, Builder *b, SbReport *report) {
