@@ -218,6 +218,49 @@ static void give_errors(SbFilm *out, const SbFilmSolver *solver, bool converged)
   out->solver.converged = converged;
 }
 
+// Solves one level: the first one from a cold start, the others from the level below, or from a
+// cold start if that is too coarse a guess. *cold: it was a second level or a later one from a cold
+// start.
+static SbStatus solve_level(bool *cold, SbFilmSolver *solver, const SbEhlCase *c, int level,
+                            double supply) {
+  const SbStatus status =
+      level == 0 ? sb_ehl_start(solver, c, supply) : sb_ehl_refine(solver, c->layers.degree);
+  *cold = level > 0 && status == SB_ERROR_NOT_CONVERGED && !c->rough.rows;
+  return *cold ? sb_ehl_start(solver, c, supply) : status;
+}
+
+// Computes the results of the last level and, from the second level on, its errors. `paired`: the
+// level below was its initial guess.
+static void add_level(SbEhlResults *results, double change[LEVELS][3], int *levels,
+                      SbFilmSolver *solver, double supply, bool paired) {
+  const bool rough = solver->now->c.rough.rows;
+  SbEhlResults *now = &results[*levels];
+  sb_ehl_results(now, solver->now);
+  solver->error[0] = solver->error[1] = solver->error[2] = 1.0;
+  if (++*levels >= 2) {
+    double *last = change[*levels - 1];
+    sb_ehl_change(last, solver, now, now - 1, paired);
+    if (isfinite(supply) && !rough) {
+      // The supply determines the centre of a starved film: two levels agree there by chance.
+      last[1] = fmax(last[1], 0.05 * last[0]);
+    }
+    estimate(solver, change, *levels, results);
+  }
+  if (rough) { // the next mesh follows the film's ends
+    (void)sb_ehl_rough_fronts(&solver->now->c, solver->now);
+  }
+}
+
+// Increases the errors of a level whose finer one did not converge: its rate of convergence is not
+// known.
+static void distrust(SbFilmSolver *solver) {
+  static const double UNSEEN = 5;
+  for (int i = 0; i < 3; i++) {
+    solver->error[i] *= UNSEEN;
+  }
+  solver->info->error_contact *= UNSEEN;
+}
+
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
 static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
                       const SbEhlCase *cold, double supply) {
@@ -235,29 +278,21 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
     c.layers.degree = degree;
     c.rough.coarse = coarse;
     solver->tolerance = *levels + 1 < least ? LEVEL_RESIDUAL[*levels] : RESIDUAL;
-    SbStatus status =
-        *levels == 0 ? sb_ehl_start(solver, &c, supply) : sb_ehl_refine(solver, degree);
-    bool anew = *levels > 0 && status == SB_ERROR_NOT_CONVERGED && !rough;
-    if (anew) {
-      // The level below may be too coarse a guess: this one from nothing.
-      status = sb_ehl_start(solver, &c, supply);
-    }
+    bool again;
+    const SbStatus status = solve_level(&again, solver, &c, *levels, supply);
     if (status == SB_ERROR_NOT_CONVERGED && !rough && *levels <= 1 && degree < last) {
       // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
       *levels = 0;
       degree += 2;
       continue;
     }
-    if (status == SB_ERROR_NOT_CONVERGED && *levels < 2 && saves) {
-      // Elements so large that a meniscus has no node near it.
-      saves = coarse = false;
-      *levels = 0;
-      degree = DEGREE_FIRST;
-      continue;
-    }
-    if (status == SB_ERROR_RANGE && *levels < 2 && rough && !coarse) {
-      // Layers so thin that their elements leave no room for a second level.
-      coarse = true;
+    // Elements so large that a meniscus has no node near it, or layers so thin that their elements
+    // leave no room for a second level.
+    const bool large = status == SB_ERROR_NOT_CONVERGED && *levels < 2 && saves;
+    const bool thin = status == SB_ERROR_RANGE && *levels < 2 && rough && !coarse;
+    if (large || thin) {
+      saves = saves && !large;
+      coarse = thin;
       *levels = 0;
       degree = DEGREE_FIRST;
       continue;
@@ -269,32 +304,13 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       break; // no room for a finer mesh: the error so far decides
     }
     if (status == SB_ERROR_NOT_CONVERGED && rough && *levels >= 2) {
-      // The finer one is not found: the same, its rate of convergence not believed.
-      static const double UNSEEN = 5;
-      for (int i = 0; i < 3; i++) {
-        solver->error[i] *= UNSEEN;
-      }
-      solver->info->error_contact *= UNSEEN;
+      distrust(solver);
       break;
     }
     if (status != SB_OK) {
       return status;
     }
-    SbEhlResults *now = &results[*levels];
-    sb_ehl_results(now, solver->now);
-    solver->error[0] = solver->error[1] = solver->error[2] = 1.0;
-    if (++*levels >= 2) {
-      sb_ehl_change(change[*levels - 1], solver, now, now - 1, !anew);
-      if (isfinite(supply) && !rough) {
-        // The supply determines the centre of a starved film: two levels agree there by chance.
-        double *last_change = change[*levels - 1];
-        last_change[1] = fmax(last_change[1], 0.05 * last_change[0]);
-      }
-      estimate(solver, change, *levels, results);
-    }
-    if (rough) { // the next mesh follows the film's ends
-      (void)sb_ehl_rough_fronts(&solver->now->c, solver->now);
-    }
+    add_level(results, change, levels, solver, supply, !again);
     if (*levels >= least && degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
       break;
     }
@@ -380,6 +396,92 @@ static SbStatus solve_cold(SbEhlResults *results, int *levels, SbFilmSolver *sol
   return status;
 }
 
+// Warns of what the film's model does not cover.
+static void warn_of_case(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale) {
+  if (scale->outlet < 0.0) {
+    sb_warn(
+        &out->warnings, "film-outlet-vapour", 0,
+        "the outlet's pressure is below the rupture pressure, which is assumed after the contact");
+  }
+  if (problem->compliance == NULL && scale->half_width > problem->radius) {
+    out->valid = false;
+    sb_warn(&out->warnings, "film-contact-wide", SB_FILM_IN_MODULUS,
+            "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
+            scale->half_width / problem->radius);
+  }
+}
+
+// Fills `out` from the solver's last solution and its results.
+static void give(SbFilm *out, const SbFilmScale *scale, const SbFilmSolver *solver,
+                 const SbEhlResults *results, bool rough, bool converged) {
+  const SbEhlSolution *found = solver->now;
+  fill(out, solver->problem, scale, &found->c, results);
+  out->solver.unknowns = (size_t)found->mesh.dofs + (rough ? 2 : 3);
+  give_errors(out, solver, converged);
+}
+
+// Solves a case close to the base, from its factors (SbFilmProblem.place). `supply`: flux film
+// supplied.
+static SbStatus solve_near(SbFilm *out, const SbFilmScale *scale, SbFilmSolver *solver,
+                           const SbEhlCase *c, double supply, SbReport *report) {
+  SbEhlResults results;
+  solver->tolerance = RESIDUAL;
+  SbStatus status = solver->base.solved ? sb_ehl_from_base(solver, c, solver->problem->place)
+                                        : SB_ERROR_NOT_CONVERGED;
+  if (status == SB_OK) {
+    sb_ehl_results(&results, solver->now);
+    status = results.film_flux > supply ? SB_ERROR_NOT_CONVERGED : SB_OK; // it is starved
+  }
+  if (status != SB_OK) {
+    return sb_fail(report, status, "none next to the last one");
+  }
+  give(out, scale, solver, &results, c->rough.rows, true);
+  out->solver.error_contact = solver->base.error_contact;
+  return sb_succeed(report);
+}
+
+// Solves a case from the last solution or from a cold start; a smooth film that is not found so, as
+// a rough one. *rough: the last attempt has rough rows.
+static SbStatus solve_alone(SbEhlResults *results, int *levels, bool *rough, SbFilmSolver *solver,
+                            SbEhlCase *c, const SbFilmScale *scale, double supply,
+                            SbWarnings *warnings, SbReport *report) {
+  const bool warm = solver->last.ready && solver->last.tolerance <= solver->problem->tolerance &&
+                    !isfinite(supply) && !*rough;
+  solver->base.solved = solver->base.held = solver->base.ready = false;
+  solver->last.ready = false;
+  *levels = 1;
+  SbStatus status = warm ? solve_warm(results, solver, c) : SB_ERROR_NOT_CONVERGED;
+  if (status == SB_ERROR_NOT_CONVERGED) {
+    status = solve_cold(results, levels, solver, c, supply, warnings);
+    if (status == SB_ERROR_NOT_CONVERGED && !*rough && !isfinite(supply)) {
+      // Rough rows take a smooth film as well, and find its cavity themselves.
+      *rough = true;
+      status = sb_ehl_rough_case(c, solver, scale, report);
+      status = status == SB_OK ? solve_cold(results, levels, solver, c, supply, warnings) : status;
+    }
+  }
+  return status;
+}
+
+// Reports why a case has no solution, or why its levels ended.
+static SbStatus report_failure(const SbFilmSolver *solver, SbStatus status, SbReport *report) {
+  if (status == SB_ERROR_CANCELLED) {
+    return sb_fail(report, status, "cancelled");
+  }
+  if (status == SB_ERROR_INFEASIBLE) {
+    return sb_fail_input(report, status, SB_FILM_IN_INLET,
+                         "no film has a starved inlet together with a cavity before a flooded "
+                         "outlet; a flooded inlet has one");
+  }
+  (void)sb_fail(report, status, "Newton's method stopped at residual %.2g, degree %d",
+                solver->info->residual, solver->now->c.layers.degree);
+  if (report != NULL) {
+    report->residual = solver->info->residual;
+    report->iteration = solver->info->newton_iterations;
+  }
+  return status;
+}
+
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report) {
   bool rough = sb_film_rough(problem);
@@ -398,77 +500,24 @@ SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmSca
   if (status != SB_OK) {
     return status;
   }
-  if (scale->outlet < 0.0) {
-    sb_warn(
-        &out->warnings, "film-outlet-vapour", 0,
-        "the outlet's pressure is below the rupture pressure, which is assumed after the contact");
-  }
-  if (problem->compliance == NULL && scale->half_width > problem->radius) {
-    out->valid = false;
-    sb_warn(&out->warnings, "film-contact-wide", SB_FILM_IN_MODULUS,
-            "the contact's half-width is %.2g of the radius: no parabola on a half-plane",
-            scale->half_width / problem->radius);
+  warn_of_case(out, problem, scale);
+  if (problem->place != SB_FILM_ALONE) {
+    return solve_near(out, scale, solver, &c, supply, report);
   }
 
   SbEhlResults results[LEVELS];
-  int levels = 1;
-  if (problem->place != SB_FILM_ALONE) {
-    solver->tolerance = RESIDUAL;
-    status =
-        solver->base.solved ? sb_ehl_from_base(solver, &c, problem->place) : SB_ERROR_NOT_CONVERGED;
-    if (status == SB_OK) {
-      sb_ehl_results(results, solver->now);
-      status = results->film_flux > supply ? SB_ERROR_NOT_CONVERGED : SB_OK; // it is starved
-    }
-    if (status != SB_OK) {
-      return sb_fail(report, status, "none next to the last one");
-    }
-    fill(out, problem, scale, &solver->now->c, results);
-    info->unknowns = (size_t)solver->now->mesh.dofs + (rough ? 2 : 3);
-    info->error_contact = solver->base.error_contact;
-    give_errors(out, solver, true);
-    return sb_succeed(report);
-  }
-  solver->base.solved = solver->base.held = solver->base.ready = false;
-  bool warm = solver->last.ready && solver->last.tolerance <= problem->tolerance &&
-              !isfinite(supply) && !rough;
-  solver->last.ready = false;
-  status = warm ? solve_warm(results, solver, &c) : SB_ERROR_NOT_CONVERGED;
-  if (status == SB_ERROR_NOT_CONVERGED) {
-    status = solve_cold(results, &levels, solver, &c, supply, &out->warnings);
-    if (status == SB_ERROR_NOT_CONVERGED && !rough && !isfinite(supply)) {
-      // Rough rows take a smooth film as well, and find its cavity themselves.
-      rough = true;
-      status = sb_ehl_rough_case(&c, solver, scale, report);
-      status = status == SB_OK ? solve_cold(results, &levels, solver, &c, supply, &out->warnings)
-                               : status;
-    }
-  }
-  if (status == SB_ERROR_CANCELLED) {
-    return sb_fail(report, status, "cancelled");
-  }
-  if (status == SB_ERROR_INFEASIBLE) {
-    return sb_fail_input(report, status, SB_FILM_IN_INLET,
-                         "no film has a starved inlet together with a cavity before a flooded "
-                         "outlet; a flooded inlet has one");
-  }
+  int levels;
+  status = solve_alone(results, &levels, &rough, solver, &c, scale, supply, &out->warnings, report);
   if (status != SB_OK) {
-    status = sb_fail(report, status, "Newton's method stopped at residual %.2g, degree %d",
-                     info->residual, solver->now->c.layers.degree);
-    if (report != NULL) {
-      report->residual = info->residual;
-      report->iteration = info->newton_iterations;
-    }
+    status = report_failure(solver, status, report);
   }
-  if (levels == 0) {
+  if (levels == 0 || status == SB_ERROR_CANCELLED || status == SB_ERROR_INFEASIBLE) {
     return status;
   }
 
   // The tolerance decides, whether or not the last level was reached; rough rows must end.
-  const SbEhlSolution *found = solver->now;
-  fill(out, problem, scale, &found->c, &results[levels - 1]);
-  info->unknowns = (size_t)found->mesh.dofs + (rough ? 2 : 3);
-  give_errors(out, solver, worst(solver) <= problem->tolerance && !(rough && status != SB_OK));
+  give(out, scale, solver, &results[levels - 1], rough,
+       worst(solver) <= problem->tolerance && !(rough && status != SB_OK));
   solver->base.solved = info->converged;
   solver->base.error_contact = info->error_contact;
   if (info->converged) {

@@ -153,35 +153,17 @@ double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet) 
   return -(inlet - outlet) / M_PI * log(0.5 * (c->right - c->left) / body->half_width);
 }
 
-void sb_ehl_fitted(const SbEhlSolution *s) {
-  const SbEhlMesh *mesh = &s->mesh;
-  const SbFilmBody *body = &s->c.body;
-  const SbSurfaceCompliance *c = body->compliance;
-  const double shift = s->state.shift;
-  const double unit = body->side * body->half_width;
+// Computes S times the moments, without the constant that H0 takes up anyway: it would only cost
+// digits of thin films. Of the state's pressure, of its derivative, and, if `basis`, of the basis.
+static void apply_smooth(double of_state[MODES], double of_slope[MODES], const SbEhlSolution *s,
+                         const double *state, const double *state_slope, bool basis) {
+  const SbSurfaceCompliance *c = s->c.body.compliance;
   const int modes = c->modes;
-  // p_H b over the film's scale.
-  const double factor = 0.25 * c->modulus;
+  const double factor = 0.25 * c->modulus; // p_H b over the film's scale
   SbFilmSolver *solver = s->solver;
-  const bool stands = solver->base.in_use; // the kernel of a base does
-  if (!stands) {
-    memset(solver->fitted.moment, 0, sizeof solver->fitted.moment);
-  }
-  double state[MODES] = {0};
-  double state_slope[MODES] = {0};
-  for (int i = 0; i < mesh->count; i++) {
-    add_element(state, state_slope, s, &mesh->element[i]);
-  }
-  sb_film_ambient(state, state_slope, body, mesh->inlet_pressure, mesh->outlet_pressure,
-                  mesh->left_end + shift, mesh->right_end + shift);
-
-  // S times the moments, without the constant that H0 takes up anyway: it would only cost digits of
-  // thin films. Of the basis, of the pressure, of its derivative.
-  double of_state[MODES] = {0};
-  double of_slope[MODES] = {0};
-  if (!stands) {
+  if (basis) {
     memset(solver->fitted.smooth[0], 0, sizeof solver->fitted.smooth[0]);
-    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, mesh->dofs, modes, factor,
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, modes - 1, s->mesh.dofs, modes, factor,
                 &c->smooth[1][0], MODES, &solver->fitted.moment[0][0], SB_EHL_DOFS_MAX, 0.0,
                 &solver->fitted.smooth[1][0], SB_EHL_DOFS_MAX);
   }
@@ -189,7 +171,17 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
               0.0, of_state + 1, 1);
   cblas_dgemv(CblasRowMajor, CblasNoTrans, modes - 1, modes, factor, c->smooth[1], MODES,
               state_slope, 1, 0.0, of_slope + 1, 1);
+}
 
+// Computes the gaps at all targets, with their derivatives with respect to the shift, and the
+// body's polynomials there.
+static void fitted_gaps(const SbEhlSolution *s, const double of_state[MODES],
+                        const double of_slope[MODES]) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbFilmBody *body = &s->c.body;
+  const SbSurfaceCompliance *c = body->compliance;
+  SbFilmSolver *solver = s->solver;
+  const double unit = body->side * body->half_width, shift = s->state.shift;
   const double tilt = sb_film_window_tilt(body, mesh->inlet_pressure, mesh->outlet_pressure);
   double place[SB_COMPLIANCE_TOGETHER] = {0.0};
   double values[MODES][SB_COMPLIANCE_TOGETHER], slopes[MODES][SB_COMPLIANCE_TOGETHER];
@@ -206,7 +198,7 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
     double gap_slope;
     double sum = sb_compliance_gap(c, x, &gap_slope) / body->film;
     double sum_slope = gap_slope / body->film * unit;
-    for (int k = 0; k < modes; k++) {
+    for (int k = 0; k < c->modes; k++) {
       value[k] = values[k][own];
       sum += value[k] * of_state[k];
       sum_slope += slopes[k][own] * unit * of_state[k] + value[k] * of_slope[k];
@@ -214,11 +206,29 @@ void sb_ehl_fitted(const SbEhlSolution *s) {
     solver->gaps[i] = s->state.H0 + sum + mesh->gap_known[i] + tilt * mesh->x[i];
     solver->by_shift[i] = sum_slope;
   }
-  if (stands) {
-    return;
+}
+
+void sb_ehl_fitted(const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const double shift = s->state.shift;
+  SbFilmSolver *solver = s->solver;
+  const bool basis = !solver->base.in_use; // the kernel of a base stays
+  if (basis) {
+    memset(solver->fitted.moment, 0, sizeof solver->fitted.moment);
   }
-  memcpy(solver->kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof(double));
-  cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs, modes, 1.0,
-              &solver->fitted.value[0][0], MODES, &solver->fitted.smooth[0][0], SB_EHL_DOFS_MAX,
-              1.0, solver->kernel, mesh->dofs);
+  double state[MODES] = {0}, state_slope[MODES] = {0};
+  for (int i = 0; i < mesh->count; i++) {
+    add_element(state, state_slope, s, &mesh->element[i]);
+  }
+  sb_film_ambient(state, state_slope, &s->c.body, mesh->inlet_pressure, mesh->outlet_pressure,
+                  mesh->left_end + shift, mesh->right_end + shift);
+  double of_state[MODES] = {0}, of_slope[MODES] = {0};
+  apply_smooth(of_state, of_slope, s, state, state_slope, basis);
+  fitted_gaps(s, of_state, of_slope);
+  if (basis) {
+    memcpy(solver->kernel, mesh->gap, (size_t)mesh->targets * (size_t)mesh->dofs * sizeof(double));
+    cblas_dgemm(CblasRowMajor, CblasNoTrans, CblasNoTrans, mesh->targets, mesh->dofs,
+                s->c.body.compliance->modes, 1.0, &solver->fitted.value[0][0], MODES,
+                &solver->fitted.smooth[0][0], SB_EHL_DOFS_MAX, 1.0, solver->kernel, mesh->dofs);
+  }
 }

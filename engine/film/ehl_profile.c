@@ -89,6 +89,20 @@ static Point rough_point(const SbEhlSolution *s, const SbEhlElement *e, double r
                  .asperity = at.asperity};
 }
 
+// Returns the number of intervals of a part: even, so that the profile can be integrated by
+// parabolas, and at least 4.
+static size_t intervals_of_part(const SbFilmProblem *wanted, const SbEhlSolution *s, bool drawn) {
+  double far;
+  int parts = 0;
+  for (int i = 0; i < s->mesh.count; i++) {
+    parts += parts_of(&far, &s->mesh.element[i], &s->c, drawn);
+  }
+  size_t room = s->c.rough.rows ? 5200 : SB_FILM_POINTS - 1 - SB_EHL_ELEMENTS_MAX;
+  size_t most = drawn && wanted->profile_points < room ? wanted->profile_points : room;
+  size_t per = most / (size_t)parts / 2 * 2;
+  return per < 4 ? 4 : per;
+}
+
 void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolution *s,
                     const SbFilmScale *scale) {
   if (wanted->profile == NULL) {
@@ -101,16 +115,8 @@ void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolutio
   for (int i = 0; i < mesh->targets && !rough; i++) {
     s->solver->gaps[i] = state->gap[i] - sb_ehl_layers_dry_gap(&s->c.layers, mesh->x[i]);
   }
-  double far; // s of an infinite element's last point
-  int parts = 0;
-  for (int i = 0; i < mesh->count; i++) {
-    parts += parts_of(&far, &mesh->element[i], &s->c, drawn);
-  }
-  size_t room = rough ? 5200 : SB_FILM_POINTS - 1 - SB_EHL_ELEMENTS_MAX;
-  size_t most = drawn && wanted->profile_points < room ? wanted->profile_points : room;
-  size_t per = most / (size_t)parts / 2 * 2; // even, for who integrates by parabolas
-  per = per < 4 ? 4 : per;
-
+  const size_t per = intervals_of_part(wanted, s, drawn);
+  double far;                    // s of an infinite element's last point
   size_t thin = 0, thin_end = 1; // points of the thinnest element
   double least = INFINITY;       // film in its middle
   double correction = 0.0;

@@ -301,83 +301,105 @@ static void find_rounding(SbEhlResults *out, const SbEhlRoughPoint *point, const
                           (out->asperity_load > 0.0 ? load / out->asperity_load : 0.0);
 }
 
-void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
+// Computes the points of rough rows, the film's flux and end, and the rows' weights in integrals
+// over everything and over the full film, which are added to `whole` and `film`.
+static void begin_rough(SbEhlResults *out, double *whole, double *film, const SbEhlSolution *s) {
+  SbEhlRoughPoint *point = s->solver->point;
+  const double lambda = s->c.layers.lambda;
+  for (int i = 0; i < s->mesh.dofs; i++) {
+    sb_ehl_rough_point(&point[i], &s->c, s->state.t[i]);
+    point[i].p = s->state.nodal[i] - point[i].solid;
+  }
+  out->film_flux = lambda > 0 ? s->state.flow / lambda : 0;
+  out->position_rupture = s->mesh.right_end;
+  weigh_steps(out, whole, film, s);
+}
+
+// Computes the point of a smooth row and the error of its flux. Returns the slope of the pressure.
+static double smooth_row(SbEhlResults *out, SbEhlRoughPoint *point, const SbEhlSolution *s, int i) {
   const SbEhlMesh *mesh = &s->mesh;
-  const SbEhlState *state = &s->state;
-  const SbFilmFluid *fluid = &s->c.fluid;
-  const double shift = state->shift, lambda = s->c.layers.lambda;
-  const bool rough = s->c.rough.rows;
-  SbEhlRoughPoint *point = s->solver->point; // of all rows
-  double whole[SB_EHL_DOFS_MAX] = {0}, film[SB_EHL_DOFS_MAX] = {0};
-  *out = (SbEhlResults){.load_error = fabs(sb_ehl_load(s)) / (0.5 * M_PI)};
-  if (rough) {
-    for (int i = 0; i < mesh->dofs; i++) {
-      sb_ehl_rough_point(&point[i], &s->c, state->t[i]);
-      point[i].p = state->nodal[i] - point[i].solid;
-    }
-    out->film_flux = lambda > 0 ? state->flow / lambda : 0;
-    out->position_rupture = mesh->right_end;
-    weigh_steps(out, whole, film, s);
-  } else {
-    out->film_flux = state->flux;
-    out->ruptured = s->c.layers.end != SB_EHL_FULL;
-    // The rupture, or the end of the contact.
-    out->position_rupture =
-        out->ruptured ? mesh->element[mesh->film_end].x1 : 1.0 + s->c.layers.middle - shift;
-  }
-  out->position_rupture += shift;
+  double slope, m, by_film, by_pressure;
+  const double p =
+      sb_ehl_sum(&slope, &mesh->local[i], &mesh->element[mesh->owner[i]], s->state.nodal);
+  const double H = s->state.gap[i];
+  *point = (SbEhlRoughPoint){.h = H, .p = p};
+  sb_film_mobility(&m, &by_film, &by_pressure, &s->c.fluid, H, p);
+  const double flux = H - H * H * H * m / s->c.layers.lambda * slope;
+  out->flux_error = fmax(out->flux_error, fabs(flux - s->state.flux) / fmax(H, s->state.flux));
+  return slope;
+}
 
-  int thinnest = 0, highest = 0;
-  double peak = -INFINITY;
-  for (int i = 0; i < mesh->rows; i++) {
-    double slope = state->s[i];
-    double w = whole[i], wet = film[i];
-    if (!rough) {
-      double p = sb_ehl_sum(&slope, &mesh->local[i], &mesh->element[mesh->owner[i]], state->nodal);
-      point[i] = (SbEhlRoughPoint){.h = state->gap[i], .p = p};
-      w = wet = mesh->weight[i];
-      double m, by_film, by_pressure;
-      sb_film_mobility(&m, &by_film, &by_pressure, fluid, point[i].h, p);
-      double H = point[i].h;
-      double flux = H - H * H * H * m / lambda * slope;
-      out->flux_error = fmax(out->flux_error, fabs(flux - state->flux) / fmax(H, state->flux));
-    }
-    const SbEhlRoughPoint *at = &point[i];
-    const double open = 1.0 - at->share;
-    const double shear = sb_film_shear(fluid, at->h, at->p);
-    out->couette += wet * open * shear;
-    out->poiseuille += wet * open * 0.5 * at->h * slope;
-    if (rough && lambda > 0.0) { // in streamers
-      double theta = fmin(out->film_flux / at->h, 1.0);
-      out->cavity += (w - wet) * open * fmax(theta, 0.0) * shear;
-    }
-    out->real_area += w * at->share;
-    out->asperity_load += w * at->asperity;
-    out->solid_load += w * at->solid;
-    out->pressure_min = fmin(out->pressure_min, at->p);
-    thinnest = at->h < point[thinnest].h ? i : thinnest;
-    highest = at->p + at->solid > peak ? i : highest;
-    peak = fmax(peak, at->p + at->solid);
+// Adds a row to the friction, the real area and the loads: its point, the slope of its pressure,
+// and its weights `w` in integrals over everything and `wet` over the full film.
+static void add_row(SbEhlResults *out, const SbEhlSolution *s, const SbEhlRoughPoint *at,
+                    double slope, double w, double wet) {
+  const double open = 1.0 - at->share;
+  const double shear = sb_film_shear(&s->c.fluid, at->h, at->p);
+  out->couette += wet * open * shear;
+  out->poiseuille += wet * open * 0.5 * at->h * slope;
+  if (s->c.rough.rows && s->c.layers.lambda > 0.0) { // in streamers
+    double theta = fmin(out->film_flux / at->h, 1.0);
+    out->cavity += (w - wet) * open * fmax(theta, 0.0) * shear;
   }
+  out->real_area += w * at->share;
+  out->asperity_load += w * at->asperity;
+  out->solid_load += w * at->solid;
+  out->pressure_min = fmin(out->pressure_min, at->p);
+}
 
-  if (rough) {
-    out->real_area += kinked_area(s, point);
-  }
+// Finds the minimum and the central film, and the largest pressure. `thinnest` and `highest`: rows
+// of the smallest gap and of the largest pressure.
+static void find_extremes(SbEhlResults *out, const SbEhlSolution *s, int thinnest, int highest) {
   double place;
   out->film_min = least_about(&place, s, thinnest, false);
-  out->position_min = place + shift;
+  out->position_min = place + s->state.shift;
   out->pressure_max = -least_about(&place, s, highest, true);
   // At the axis, or in the middle of a fitted body's dry contact.
-  double middle = s->c.layers.middle - shift;
-  int axis = sb_ehl_find(mesh, middle);
-  out->film_central = film_at(s, axis, true, sb_ehl_coordinate(&mesh->element[axis], middle));
-  if (rough) {
+  double middle = s->c.layers.middle - s->state.shift;
+  int axis = sb_ehl_find(&s->mesh, middle);
+  out->film_central = film_at(s, axis, true, sb_ehl_coordinate(&s->mesh.element[axis], middle));
+  if (s->c.rough.rows) {
     SbEhlRoughPoint at;
     sb_ehl_rough_point(&at, &s->c, out->film_min);
     out->film_min = at.h;
     sb_ehl_rough_point(&at, &s->c, out->film_central);
     out->film_central = at.h;
     out->central_share = at.share;
+  }
+}
+
+void sb_ehl_results(SbEhlResults *out, const SbEhlSolution *s) {
+  const SbEhlMesh *mesh = &s->mesh;
+  const SbEhlState *state = &s->state;
+  const bool rough = s->c.rough.rows;
+  SbEhlRoughPoint *point = s->solver->point; // of all rows
+  double whole[SB_EHL_DOFS_MAX] = {0}, film[SB_EHL_DOFS_MAX] = {0};
+  *out = (SbEhlResults){.load_error = fabs(sb_ehl_load(s)) / (0.5 * M_PI)};
+  if (rough) {
+    begin_rough(out, whole, film, s);
+  } else {
+    out->film_flux = state->flux;
+    out->ruptured = s->c.layers.end != SB_EHL_FULL;
+    // The rupture, or the end of the contact.
+    out->position_rupture =
+        out->ruptured ? mesh->element[mesh->film_end].x1 : 1.0 + s->c.layers.middle - state->shift;
+  }
+  out->position_rupture += state->shift;
+
+  int thinnest = 0, highest = 0;
+  double peak = -INFINITY;
+  for (int i = 0; i < mesh->rows; i++) {
+    const SbEhlRoughPoint *at = &point[i];
+    const double slope = rough ? state->s[i] : smooth_row(out, &point[i], s, i);
+    add_row(out, s, at, slope, rough ? whole[i] : mesh->weight[i],
+            rough ? film[i] : mesh->weight[i]);
+    thinnest = at->h < point[thinnest].h ? i : thinnest;
+    highest = at->p + at->solid > peak ? i : highest;
+    peak = fmax(peak, at->p + at->solid);
+  }
+  out->real_area += rough ? kinked_area(s, point) : 0.0;
+  find_extremes(out, s, thinnest, highest);
+  if (rough) {
     find_rounding(out, point, whole, mesh->rows);
   }
 }

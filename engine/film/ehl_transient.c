@@ -288,6 +288,30 @@ static void compare_steady(SbFilmTransient *t, const SbFilm *steady) {
   result->error_film_min = result->error_film_central = result->error_mesh;
 }
 
+// Sets the state at the start: at rest with this scaled film, or steady.
+static SbStatus lay_start(SbFilmTransient *t, const Steady *steady, double rest, SbReport *report) {
+  SbStatus status = SB_OK;
+  double supply[2];
+  for (int k = 0; k < 2; k++) {
+    const double layer = 2.0 * t->problem.inlet_film[k] / t->scale.film;
+    supply[k] = layer > 0.0 ? layer : INFINITY;
+  }
+  if (rest > 0.0) {
+    memcpy(t->supply, supply, sizeof supply);
+    lay_rest(t, rest, &steady->film[1]);
+    starve(t);
+  } else if (!steady->same) {
+    // What it does not take gathers before it; without that there is no steady state.
+    const int inlet = steady->speed[1] < 0.0;
+    const bool takes = steady->film[1].film_flux / t->scale.film > 0.999 * supply[inlet];
+    t->supply[inlet] = takes ? supply[inlet] : INFINITY;
+    status = lay_steady(t, &steady->film[1], steady->speed[1], report);
+    compare_steady(t, &steady->film[1]);
+  }
+  memcpy(t->supply, supply, sizeof supply);
+  return status;
+}
+
 // One resolution from the steady films.
 static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *problem,
                       double coarseness, const Steady *steady, SbFilmSolver *solver,
@@ -330,25 +354,7 @@ static SbStatus begin(SbFilmTransient **out, const SbFilmTransientProblem *probl
   }
   compare_steady(t, largest);
   t->known_times = 1;
-  double supply[2];
-  for (int k = 0; k < 2; k++) {
-    const double layer = 2.0 * problem->inlet_film[k] / scale->film;
-    supply[k] = layer > 0.0 ? layer : INFINITY;
-  }
-  if (rest > 0.0) {
-    memcpy(t->supply, supply, sizeof supply);
-    lay_rest(t, rest, &steady->film[1]);
-    starve(t);
-  } else if (!steady->same) {
-    // What it does not take gathers before it; without that there is no steady state.
-    const int inlet = steady->speed[1] < 0.0;
-    const bool takes = steady->film[1].film_flux / scale->film > 0.999 * supply[inlet];
-    t->supply[inlet] = takes ? supply[inlet] : INFINITY;
-    status = lay_steady(t, &steady->film[1], steady->speed[1], report);
-    compare_steady(t, &steady->film[1]);
-  }
-  memcpy(t->supply, supply, sizeof supply);
-  return status;
+  return lay_start(t, steady, rest, report);
 }
 
 SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientProblem *wanted,

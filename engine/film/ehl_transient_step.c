@@ -88,77 +88,82 @@ static double load_excess(const SbFilmTransient *t, const SbTransientState *s) {
 
 enum { BAND = 5, MIDDLE = 2 }; // derivatives of a row go to nodes i - 2 .. i + 2
 
-// Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
-// about.
-static void assemble(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
-                     bool whole) {
+// Fills the row of a node's mass balance; see assemble().
+static inline void mass_row(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
+                            bool whole, int i) {
   const int n = t->nodes;
   const size_t order = (size_t)t->order;
-  for (int i = 1; i + 1 < n; i++) {
-    double by_m[BAND] = {0}, by_H[BAND] = {0}, by_P[BAND] = {0};
-    by_m[MIDDLE] = t->volume[i] * t->c0;
-    for (int side = 0; side < 2; side++) {
-      const SbTransientFace *f = &t->face[i - side];
-      for (int k = 0; k < 4; k++) {
-        const int place = f->first + k - i + MIDDLE;
-        by_m[place] += side == 0 ? f->by_m[k] : -f->by_m[k];
-        by_H[place] += side == 0 ? f->by_H[k] : -f->by_H[k];
-        by_P[place] += side == 0 ? f->by_P[k] : -f->by_P[k];
-      }
+  double by_m[BAND] = {0}, by_H[BAND] = {0}, by_P[BAND] = {0};
+  by_m[MIDDLE] = t->volume[i] * t->c0;
+  for (int side = 0; side < 2; side++) {
+    const SbTransientFace *f = &t->face[i - side];
+    for (int k = 0; k < 4; k++) {
+      const int place = f->first + k - i + MIDDLE;
+      by_m[place] += side == 0 ? f->by_m[k] : -f->by_m[k];
+      by_H[place] += side == 0 ? f->by_H[k] : -f->by_H[k];
+      by_P[place] += side == 0 ? f->by_P[k] : -f->by_P[k];
     }
-    double right = residual(t, s, i);
-    double by_H0 = 0.0;
-    double *out = t->matrix + (size_t)(i - 1) * order;
-    if (whole) {
-      memset(out, 0, order * sizeof *out);
+  }
+  double right = residual(t, s, i);
+  double by_H0 = 0.0;
+  double *out = t->matrix + (size_t)(i - 1) * order;
+  if (whole) {
+    memset(out, 0, order * sizeof *out);
+  }
+  const int first = i < MIDDLE ? 0 : i - MIDDLE, last = i + MIDDLE < n ? i + MIDDLE : n - 1;
+  for (int j = first; j <= last; j++) {
+    const int k = j - i + MIDDLE;
+    // Where the film is full its gap is the fluid's height.
+    const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
+    right += by_gap * (elastic[j] - s->H[j]);
+    by_H0 += by_gap;
+    if (whole && by_gap != 0.0) {
+      cblas_daxpy(n - 2, by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
     }
-    const int first = i < MIDDLE ? 0 : i - MIDDLE, last = i + MIDDLE < n ? i + MIDDLE : n - 1;
-    for (int j = first; j <= last; j++) {
-      const int k = j - i + MIDDLE;
-      // Where the film is full its gap is the fluid's height.
-      const double by_gap = by_H[k] + (s->cavity[j] ? 0.0 : by_m[k] - by_P[k] * t->solid_H[j]);
-      right += by_gap * (elastic[j] - s->H[j]);
-      by_H0 += by_gap;
-      if (whole && by_gap != 0.0) {
-        cblas_daxpy(n - 2, by_gap, t->kernel + (size_t)j * (size_t)n + 1, 1, out, 1);
-      }
+  }
+  t->right[i - 1] = right;
+  if (!whole) {
+    return;
+  }
+  for (int j = 1; j + 1 < n; j++) {
+    const bool near = j >= first && j <= last;
+    const double own = !near ? 0.0 : s->cavity[j] ? by_m[j - i + MIDDLE] : by_P[j - i + MIDDLE];
+    if (t->extra[j] > 0) {
+      out[t->extra[j]] = out[j - 1];
     }
-    t->right[i - 1] = right;
-    if (!whole) {
-      continue;
-    }
+    out[j - 1] = s->cavity[j] ? own : out[j - 1] + own;
+  }
+  out[order - 1] = by_H0;
+}
+
+// Fills the row of the total pressure of a cavitated node between surfaces in contact.
+static inline void cavity_row(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
+                              bool whole, int i) {
+  const int n = t->nodes;
+  const size_t order = (size_t)t->order;
+  const double slope = t->solid_H[i];
+  t->right[t->extra[i]] = s->Q[i] - t->solid[i] - slope * (elastic[i] - s->H[i]);
+  if (whole) {
+    double *out = t->matrix + (size_t)t->extra[i] * order;
     for (int j = 1; j + 1 < n; j++) {
-      const bool near = j >= first && j <= last;
-      const double own = !near ? 0.0 : s->cavity[j] ? by_m[j - i + MIDDLE] : by_P[j - i + MIDDLE];
+      const double by = -slope * t->kernel[(size_t)i * (size_t)n + (size_t)j];
+      out[j - 1] = s->cavity[j] ? 0.0 : by;
       if (t->extra[j] > 0) {
-        out[t->extra[j]] = out[j - 1];
-      }
-      out[j - 1] = s->cavity[j] ? own : out[j - 1] + own;
-    }
-    out[order - 1] = by_H0;
-  }
-  for (int i = 1; i + 1 < n; i++) { // the total pressure of a cavity
-    if (t->extra[i] > 0) {
-      const double slope = t->solid_H[i];
-      t->right[t->extra[i]] = s->Q[i] - t->solid[i] - slope * (elastic[i] - s->H[i]);
-      if (whole) {
-        double *out = t->matrix + (size_t)t->extra[i] * order;
-        for (int j = 1; j + 1 < n; j++) {
-          const double by = -slope * t->kernel[(size_t)i * (size_t)n + (size_t)j];
-          out[j - 1] = s->cavity[j] ? 0.0 : by;
-          if (t->extra[j] > 0) {
-            out[t->extra[j]] = by;
-          }
-        }
-        out[t->extra[i]] += 1.0;
-        out[order - 1] = -slope;
+        out[t->extra[j]] = by;
       }
     }
+    out[t->extra[i]] += 1.0;
+    out[order - 1] = -slope;
   }
+}
+
+// Fills the row of the load.
+static void load_row(SbFilmTransient *t, const SbTransientState *s, bool whole) {
+  const size_t order = (size_t)t->order;
   t->right[order - 1] = load_excess(t, s);
   if (whole) {
     double *out = t->matrix + (order - 1) * order;
-    for (int j = 1; j + 1 < n; j++) {
+    for (int j = 1; j + 1 < t->nodes; j++) {
       out[j - 1] = s->cavity[j] ? 0.0 : t->weight[j];
       if (t->extra[j] > 0) {
         out[t->extra[j]] = t->weight[j];
@@ -166,6 +171,21 @@ static void assemble(SbFilmTransient *t, const SbTransientState *s, const double
     }
     out[order - 1] = 0.0;
   }
+}
+
+// Fills the right-hand side and, if `whole`, the matrix for the present active set; H is linearised
+// about.
+static void assemble(SbFilmTransient *t, const SbTransientState *s, const double *elastic,
+                     bool whole) {
+  for (int i = 1; i + 1 < t->nodes; i++) {
+    mass_row(t, s, elastic, whole, i);
+  }
+  for (int i = 1; i + 1 < t->nodes; i++) {
+    if (t->extra[i] > 0) {
+      cavity_row(t, s, elastic, whole, i);
+    }
+  }
+  load_row(t, s, whole);
 }
 
 // Numbers the unknowns: of the nodes, total pressures of cavities between surfaces in contact, H0.
@@ -189,6 +209,13 @@ static bool factors_serve(const SbFilmTransient *t, const SbTransientState *s) {
   return fabs(log(t->c0 / t->factored_c0)) < 0.3 &&
          memcmp(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool)) == 0 &&
          memcmp(t->factored_extra, t->extra, (size_t)t->nodes * sizeof(int)) == 0;
+}
+
+// Stores the unknowns and the step that factors_serve() compares with.
+static void note_factors(SbFilmTransient *t, const SbTransientState *s) {
+  t->factored_c0 = t->c0;
+  memcpy(t->factored_cavity, s->cavity, (size_t)t->nodes * sizeof(bool));
+  memcpy(t->factored_extra, t->extra, (size_t)t->nodes * sizeof(int));
 }
 
 // Returns the largest error of the mass balance between the contact's left edge and any node up to
@@ -253,6 +280,16 @@ static void choose_scheme(SbFilmTransient *t, const SbTransientState *s, int i) 
   f->monotonic = f->limited || f->beside_cavity || steep;
 }
 
+// Computes the flows through all faces; with `choose`, the schemes for the present state first.
+static void find_flows(SbFilmTransient *t, const SbTransientState *s, bool choose) {
+  for (int i = 0; choose && i + 1 < t->nodes; i++) {
+    choose_scheme(t, s, i);
+  }
+  for (int i = 0; i + 1 < t->nodes; i++) {
+    flow_through(t, s, i);
+  }
+}
+
 // Takes the step in t->right; no film may decrease below a fifth in one step. *factor is the
 // fraction taken. Returns the largest relative change of the fluid's height, NaN if there is no
 // step.
@@ -304,6 +341,15 @@ static void set_end(const SbFilmTransient *t, SbTransientState *s, int i, int be
   }
 }
 
+// Returns whether the mass balance is closed: to the tolerance, to rounding, or to where it no
+// longer decreases. `before_mass`: its error before the last step; `before_largest`: the last
+// step's largest relative change.
+static bool is_balanced(const SbFilmTransient *t, const SbTransientState *s, double mass,
+                        double before_mass, double before_largest) {
+  return mass < fmax(1e-11, mass_rounding(t, s)) || (mass < 1e-10 && mass > 0.1 * before_mass) ||
+         before_largest < 1e-13;
+}
+
 SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
   enum { ITERATIONS_MAX = 30 };
   const int n = t->nodes;
@@ -327,12 +373,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     elastic_H = elastic_H && !lifted;
     fresh = fresh || !factors_serve(t, s);
     // The scheme follows the cavity at first only: with the active set it could go in circles.
-    for (int i = 0; iteration < 3 && i + 1 < n; i++) {
-      choose_scheme(t, s, i);
-    }
-    for (int i = 0; i + 1 < n; i++) {
-      flow_through(t, s, i);
-    }
+    find_flows(t, s, iteration < 3);
     if (elastic_H) {
       memcpy(elastic, s->H, (size_t)n * sizeof *elastic);
     } else {
@@ -340,8 +381,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     }
     if (settled) {
       const double mass = mass_error(t, s);
-      if (mass < fmax(1e-11, mass_rounding(t, s)) || (mass < 1e-10 && mass > 0.1 * before_mass) ||
-          before_largest < 1e-13) {
+      if (is_balanced(t, s, mass, before_mass, before_largest)) {
         result->mass_error = fmax(result->mass_error, mass);
         result->load_error = fmax(result->load_error, fabs(load_excess(t, s)) / (0.5 * M_PI));
         return SB_OK;
@@ -350,9 +390,7 @@ SbStatus sb_transient_newton(SbFilmTransient *t, SbTransientState *s) {
     }
     assemble(t, s, elastic, fresh);
     if (fresh) {
-      t->factored_c0 = t->c0;
-      memcpy(t->factored_cavity, s->cavity, (size_t)n * sizeof(bool));
-      memcpy(t->factored_extra, t->extra, (size_t)n * sizeof(int));
+      note_factors(t, s);
     }
     result->newton_iterations++;
     double factor, largest = NAN;

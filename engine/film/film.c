@@ -373,6 +373,41 @@ static void warn_common(SbFilm *out, const SbFilmProblem *problem) {
   }
 }
 
+// Solves smooth surfaces at rest. `dry`: the contact of a fitted body, NULL without one.
+static SbStatus solve_rest(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                           const SbDryContact *dry, SbReport *report) {
+  SbStatus status;
+  if (dry != NULL) {
+    sb_film_rest_fitted(out, problem, dry);
+    status = sb_succeed(report);
+  } else {
+    status = sb_film_solve_dry(out, scale, report);
+  }
+  if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
+    snap_in(out, problem, snap_gap(NULL, problem, scale).high);
+  }
+  return status;
+}
+
+// Solves the film by the coupled solver, with its profile. `memory`: the caller's solver, NULL for
+// one that is only used here.
+static SbStatus solve_timed(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
+                            SbFilmSolver *memory, SbReport *report) {
+  SbFilmSolver *own = NULL;
+  SbStatus status = memory == NULL ? sb_film_solver_create(&own, report) : SB_OK;
+  SbFilmSolver *solver = memory != NULL ? memory : own;
+  const double begin = sb_clock_seconds();
+  if (status == SB_OK) {
+    status = solve_coupled(out, problem, scale, solver, report);
+  }
+  out->solver.wall_s = sb_clock_seconds() - begin;
+  if (out->film_central > 0.0) {
+    sb_ehl_profile(out, problem, solver->now, scale);
+  }
+  sb_film_solver_destroy(own);
+  return status;
+}
+
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,
                        SbReport *report) {
   memset(out, 0, sizeof *out);
@@ -384,7 +419,6 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
   sb_film_begin(out, problem, &scale);
   Solve *closed = models[problem->model].closed;
   const bool fitted = problem->compliance != NULL && closed == NULL;
-  SbFilmSolver *own = NULL;
   SbDryContact dry;
   if (fitted) {
     status = sb_film_scale_fitted(&scale, &dry, problem, report);
@@ -400,31 +434,13 @@ SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *
     return sb_fail_because(report, status, SB_CAUSE_FLUID_OPENS);
   }
   if (scale.U <= 0.0 && problem->surface == SB_ROUGH_NONE) {
-    if (fitted) {
-      sb_film_rest_fitted(out, problem, &dry);
-      status = sb_succeed(report);
-    } else {
-      status = sb_film_solve_dry(out, &scale, report);
-    }
-    if (sb_film_rough(problem)) { // no film at all between smooth surfaces at rest
-      snap_in(out, problem, snap_gap(NULL, problem, &scale).high);
-    }
+    status = solve_rest(out, problem, &scale, fitted ? &dry : NULL, report);
   } else {
     if (closed != NULL) {
       status = closed(out, problem, &scale, report);
       out->solver.converged = status == SB_OK;
     } else {
-      status = memory == NULL ? sb_film_solver_create(&own, report) : SB_OK;
-      SbFilmSolver *solver = memory != NULL ? memory : own;
-      const double begin = sb_clock_seconds();
-      if (status == SB_OK) {
-        status = solve_coupled(out, problem, &scale, solver, report);
-      }
-      out->solver.wall_s = sb_clock_seconds() - begin;
-      if (out->film_central > 0.0) {
-        sb_ehl_profile(out, problem, solver->now, &scale);
-      }
-      sb_film_solver_destroy(own);
+      status = solve_timed(out, problem, &scale, memory, report);
     }
     if (problem->speed < 0.0) {
       turn(out);
