@@ -56,6 +56,10 @@ void sb_note_add(GPtrArray *notes, const char *format, ...) {
   va_end(arguments);
 }
 
+int sb_note_compare(gconstpointer a, gconstpointer b) {
+  return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue) {
   sb_issues_add(issues, issue->file, issue->line, issue->key, issue->allowed, "%s", issue->text);
 }

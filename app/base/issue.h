@@ -29,6 +29,9 @@ bool sb_issues_add(GPtrArray *issues, const char *file, int line, const char *ke
 // Appends a formatted sentence to a list of char *.
 void sb_note_add(GPtrArray *notes, const char *format, ...) G_GNUC_PRINTF(2, 3);
 
+// Compares the texts of two elements of a list of char * for g_ptr_array_sort().
+int sb_note_compare(gconstpointer a, gconstpointer b);
+
 // Appends a copy of an issue.
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue);
 

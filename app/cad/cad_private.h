@@ -15,14 +15,27 @@ typedef struct {
   double x0, y0, x1, y1, bulge;
 } SbCadPiece;
 
+// Returns the scalar product of two vectors.
+static inline double sb_cad_dot(const double a[3], const double b[3]) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+// Writes the vector product of `a` and `b`; `product` is neither of them.
+static inline void sb_cad_cross(double product[3], const double a[3], const double b[3]) {
+  for (int k = 0; k < 3; k++) {
+    const int next = (k + 1) % 3, last = (k + 2) % 3;
+    product[k] = a[next] * b[last] - a[last] * b[next];
+  }
+}
+
 // Writes the point of a curve at t in [0, 1] to `xy`.
 typedef void (*SbCadCurve)(const void *curve, double t, double xy[2]);
 
-// Appends to `pieces` (of SbCadPiece) a chain of pieces that follow the curve `at(curve, t)` from
-// t = 0 to 1 within `tolerance`, in the unit of `at`. The curve is first divided into `steps` equal
-// intervals of t, at least 1. Returns false if the curve is not finite or needs too many pieces;
-// `pieces` then contains a part of it.
-bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, double tolerance);
+// Appends to `pieces` (of SbCadPiece) a chain of pieces that follow the curve `at(curve, t)` [m]
+// from t = 0 to 1 within SB_CAD_TOLERANCE. The curve is first divided into `steps` equal intervals
+// of t, at least 1. Returns false if the curve is not finite or needs too many pieces; `pieces`
+// then contains a part of it.
+bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps);
 
 // Returns the arc from `from` through `middle` to `to`; straight if `middle` is on the line.
 SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
@@ -43,9 +56,10 @@ double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 // drawn twice or close to no outline. The caller then calls sb_cad_settle().
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
 
-// Sets the profile of a body from the pieces of its section: the outline with the largest revolved
-// volume; or body->why, unless that is set. Adds a warning to `cad` if there are several outlines.
-void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces, double gap);
+// Sets the profile of a body, and `revolved`, from the pieces of its section: the outline with the
+// largest revolved volume; or body->why, unless that is set. Adds a warning to `cad` if there are
+// several outlines.
+void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
 // Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
 // the drawing that it is added to.

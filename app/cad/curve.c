@@ -45,7 +45,7 @@ double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off) {
 }
 
 static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,
-                   int depth, double tolerance) {
+                   int depth) {
   double p[POINTS][2], extent = 0;
   for (int i = 0; i < POINTS; i++) {
     at(curve, t0 + (t1 - t0) * i / (POINTS - 1), p[i]);
@@ -54,7 +54,7 @@ static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, 
     }
     extent = fmax(extent, hypot(p[i][0] - p[0][0], p[i][1] - p[0][1]));
   }
-  if (extent <= POINT * tolerance) {
+  if (extent <= POINT * SB_CAD_TOLERANCE) {
     return true; // a point
   }
   const SbCadPiece piece = sb_cad_arc(p[0], p[POINTS / 2], p[POINTS - 1]);
@@ -62,21 +62,21 @@ static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, 
   for (int i = 1; good && i < POINTS - 1; i++) {
     double off;
     (void)sb_cad_place(&piece, p[i][0], p[i][1], &off);
-    good = off <= BETWEEN * tolerance;
+    good = off <= BETWEEN * SB_CAD_TOLERANCE;
   }
   if (good) {
     g_array_append_val(pieces, piece);
     return pieces->len <= PIECES_MAX;
   }
   const double middle = (t0 + t1) / 2;
-  return depth < DEPTH_MAX && divide(pieces, at, curve, t0, middle, depth + 1, tolerance) &&
-         divide(pieces, at, curve, middle, t1, depth + 1, tolerance);
+  return depth < DEPTH_MAX && divide(pieces, at, curve, t0, middle, depth + 1) &&
+         divide(pieces, at, curve, middle, t1, depth + 1);
 }
 
-bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps, double tolerance) {
+bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps) {
   bool good = true;
   for (int i = 0; good && i < steps; i++) {
-    good = divide(pieces, at, curve, (double)i / steps, (double)(i + 1) / steps, 0, tolerance);
+    good = divide(pieces, at, curve, (double)i / steps, (double)(i + 1) / steps, 0);
   }
   return good;
 }

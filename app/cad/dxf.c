@@ -94,15 +94,10 @@ static bool read_line(Reader *reader) {
   reader->next.at = stop != NULL ? stop + 1 : reader->end;
   reader->next.line++;
   stop = stop != NULL ? stop : reader->end;
-  while (stop > at && strchr("\r \t", stop[-1]) != NULL && stop[-1] != '\0') {
-    stop--;
-  }
-  while (at < stop && (*at == ' ' || *at == '\t')) {
-    at++;
-  }
   const size_t length = MIN((size_t)(stop - at), sizeof reader->value - 1);
   memcpy(reader->value, at, length);
   reader->value[length] = '\0';
+  g_strstrip(reader->value);
   return true;
 }
 
@@ -243,6 +238,15 @@ static Affine after(const Affine *out, const Affine *in) {
       out->d * in->b + out->e * in->e,          out->d * in->c + out->e * in->f + out->f};
 }
 
+// Returns a piece where the map puts it, as a piece with the same part of a circle.
+static SbCadPiece placed(const Affine *way, const SbCadPiece *piece) {
+  double from[2], to[2];
+  map(way, piece->x0, piece->y0, from);
+  map(way, piece->x1, piece->y1, to);
+  const bool turned = way->a * way->e - way->b * way->d < 0;
+  return (SbCadPiece){from[0], from[1], to[0], to[1], turned ? -piece->bulge : piece->bulge};
+}
+
 // A part of an ellipse, from the angle `start` over `sweep`.
 typedef struct {
   const Affine *way;
@@ -258,7 +262,6 @@ static void ellipse_at(const void *curve, double t, double xy[2]) {
 
 // Adds a straight line or an arc; an arc is one if the map preserves circles, else is followed.
 static bool add_bulge(GArray *out, const Affine *way, const SbCadPiece *piece) {
-  const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
   const double u = hypot(way->a, way->d), v = hypot(way->b, way->e);
   const bool even =
       fabs(u - v) <= 1e-9 * (u + v) && fabs(way->a * way->b + way->d * way->e) <= 1e-9 * u * v;
@@ -267,15 +270,10 @@ static bool add_bulge(GArray *out, const Affine *way, const SbCadPiece *piece) {
     const Ellipse circle = {
         way,      {arc.centre[0], arc.centre[1]}, {arc.radius, 0}, {0, arc.radius}, arc.start,
         arc.sweep};
-    return sb_cad_curve(out, ellipse_at, &circle, 2, SB_CAD_TOLERANCE);
+    return sb_cad_curve(out, ellipse_at, &circle, 2);
   }
-  double begin[2], end[2];
-  map(way, from[0], from[1], begin);
-  map(way, to[0], to[1], end);
-  const bool turned = way->a * way->e - way->b * way->d < 0;
-  const SbCadPiece placed = {begin[0], begin[1], end[0], end[1],
-                             turned ? -piece->bulge : piece->bulge};
-  g_array_append_val(out, placed);
+  const SbCadPiece there = placed(way, piece);
+  g_array_append_val(out, there);
   return true;
 }
 
@@ -286,11 +284,15 @@ static bool add_ellipse(GArray *out, const Affine *way, const Entity *entity) {
   const Ellipse ellipse = {way,   {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]},
                            n[41], end - n[41]};
   return n[40] > 0 && ellipse.sweep <= 2 * M_PI + 1e-6 &&
-         sb_cad_curve(out, ellipse_at, &ellipse, 4, SB_CAD_TOLERANCE);
+         sb_cad_curve(out, ellipse_at, &ellipse, 4);
 }
 
-// Points of a circle at two angles, in halves of the arc between them.
-static bool add_circle(GArray *out, const Affine *way, const double *n, double start, double turn) {
+// An arc in two halves. A circle has no angles; those that a file states for it are ignored.
+static bool add_arc(GArray *out, const Affine *way, const Entity *entity) {
+  const bool circle = is_type(entity, "CIRCLE");
+  const double *n = entity->number, start = circle ? 0 : n[50] * M_PI / 180;
+  const double degrees = circle ? 0 : fmod(n[51] - n[50], 360);
+  const double turn = (degrees > 0 ? degrees : degrees + 360) * M_PI / 180;
   bool good = n[40] > 0;
   for (int i = 0; good && i < 2; i++) {
     const double a = start + i * turn / 2, b = a + turn / 2;
@@ -346,7 +348,7 @@ static bool add_spline(GArray *out, const Affine *way, const Entity *entity) {
   for (int k = degree; good && k < count; k++) {
     const Spline spline = {way, entity, degree, k};
     good = at(list[KNOT], (guint)k + 1) == at(list[KNOT], (guint)k) ||
-           sb_cad_curve(out, spline_at, &spline, 1, SB_CAD_TOLERANCE);
+           sb_cad_curve(out, spline_at, &spline, 1);
   }
   return good;
 }
@@ -373,11 +375,8 @@ static bool add_entity(GArray *out, const Affine *way, const Entity *entity) {
   bool good = false;
   if (is_type(entity, "LINE")) {
     good = add_bulge(out, way, &(SbCadPiece){n[10], n[20], n[11], n[21], 0});
-  } else if (is_type(entity, "CIRCLE")) {
-    good = add_circle(out, way, n, 0, 2 * M_PI);
-  } else if (is_type(entity, "ARC")) {
-    const double turn = fmod(n[51] - n[50], 360);
-    good = add_circle(out, way, n, n[50] * M_PI / 180, (turn > 0 ? turn : turn + 360) * M_PI / 180);
+  } else if (is_type(entity, "CIRCLE") || is_type(entity, "ARC")) {
+    good = add_arc(out, way, entity);
   } else if (is_type(entity, "ELLIPSE")) {
     good = add_ellipse(out, way, entity);
   } else if (is_type(entity, "SPLINE")) {
@@ -628,11 +627,6 @@ static bool read_file(Drawing *drawing, GError **error) {
                              "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"));
 }
 
-// The line that bodies are revolved about: a point [m] and a direction.
-typedef struct {
-  double x, y, c, s;
-} Axis;
-
 // Returns a y that all pieces are above [m]. No arc goes further from its chord than that is long
 // times the bulge.
 static double below(const Drawing *drawing) {
@@ -648,7 +642,8 @@ static double below(const Drawing *drawing) {
   return low - away;
 }
 
-static Axis find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
+// Finds the axis of the bodies and returns the map that makes it the line y = 0.
+static Affine find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
   double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
   const bool found = choices->axis == NULL && choices->through == NULL && !choices->section;
   for (guint i = 0; found && i < drawing->centre->len; i++) {
@@ -662,24 +657,16 @@ static Axis find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *ch
       memcpy(through, (double[]){line->x0, line->y0, 0}, sizeof through);
     }
   }
-  if (choices->section) {
-    through[1] = below(drawing);
-  } else {
-    memcpy(through, choices->through != NULL ? choices->through : through, sizeof through);
-    memcpy(direction, choices->axis != NULL ? choices->axis : direction, sizeof direction);
-  }
+  through[1] = choices->section ? below(drawing) : through[1];
+  const double *at = choices->section || choices->through == NULL ? through : choices->through;
+  const double *along = choices->section || choices->axis == NULL ? direction : choices->axis;
   // The point of the line that is nearest to the drawing's origin is x = 0.
-  const double length = hypot(direction[0], direction[1]);
-  const double c = direction[0] / length, s = direction[1] / length;
-  const double along = through[0] * c + through[1] * s;
-  const double point[3] = {through[0] - along * c, through[1] - along * s, 0};
-  g_autofree char *text = sb_cad_axis_text(point, direction);
+  const double length = hypot(along[0], along[1]), c = along[0] / length, s = along[1] / length;
+  const double foot = at[0] * c + at[1] * s;
+  const double point[3] = {at[0] - foot * c, at[1] - foot * s, 0};
+  g_autofree char *text = sb_cad_axis_text(point, along);
   cad->axis = g_strconcat(text, longest > 0 ? " (the longest centre line)" : "", NULL);
-  return (Axis){point[0], point[1], c, s};
-}
-
-static gint by_text(gconstpointer a, gconstpointer b) {
-  return strcmp(*(char *const *)a, *(char *const *)b);
+  return (Affine){c, s, 0, -s, c, point[0] * s - point[1] * c};
 }
 
 static void left_out(SbCad *cad, const Drawing *drawing) {
@@ -692,7 +679,7 @@ static void left_out(SbCad *cad, const Drawing *drawing) {
     g_ptr_array_add(texts, g_strdup_printf("%u %s", GPOINTER_TO_UINT(count), shown));
   }
   if (texts->len > 0) {
-    g_ptr_array_sort(texts, by_text);
+    g_ptr_array_sort(texts, sb_note_compare);
     g_ptr_array_add(texts, NULL);
     g_autofree char *all = g_strjoinv(", ", (char **)texts->pdata);
     sb_note_add(cad->warnings, "left out: %s", all);
@@ -700,16 +687,13 @@ static void left_out(SbCad *cad, const Drawing *drawing) {
 }
 
 static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
-  const Axis axis = find_axis(cad, drawing, choices);
+  const Affine axis = find_axis(cad, drawing, choices);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
     GArray *pieces = drawing->layers->pdata[k];
     for (guint i = 0; i < pieces->len; i++) {
-      SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
-      const double x0 = p->x0 - axis.x, y0 = p->y0 - axis.y;
-      const double x1 = p->x1 - axis.x, y1 = p->y1 - axis.y;
-      *p = (SbCadPiece){x0 * axis.c + y0 * axis.s, y0 * axis.c - x0 * axis.s,
-                        x1 * axis.c + y1 * axis.s, y1 * axis.c - x1 * axis.s, p->bulge};
+      SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+      *piece = placed(&axis, piece);
     }
     g_autofree char *shown = sb_printable(name, strlen(name));
     sb_cad_outlines(cad, pieces, shown, choices->join > 0 ? choices->join : GAP);

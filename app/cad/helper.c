@@ -77,23 +77,13 @@ static void print_numbers(const char *word, const double *number, int count) {
   fprintf(out, "\n");
 }
 
-static double dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-static void cross(double product[3], const double a[3], const double b[3]) {
-  const double c[3] = {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2],
-                       a[0] * b[1] - a[1] * b[0]};
-  memcpy(product, c, sizeof c);
-}
-
 // Moves the point to the one nearest to the origin; `oriented`: one sign of opposite directions.
 static void normalise(Axis *axis, bool oriented) {
   int largest = 0;
   for (int k = 1; k < 3; k++) {
     largest = fabs(axis->direction[k]) > fabs(axis->direction[largest]) + 1e-9 ? k : largest;
   }
-  const double along = dot(axis->point, axis->direction);
+  const double along = sb_cad_dot(axis->point, axis->direction);
   const double sign = oriented && axis->direction[largest] < 0 ? -1 : 1;
   for (int k = 0; k < 3; k++) {
     axis->point[k] -= along * axis->direction[k];
@@ -139,45 +129,36 @@ static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
 // `p`, from the last `count` right singular vectors (columns of v[6][6], d and m of a line each).
 // Returns `count`, or 0 if they are no axis.
 static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
-  int best = 6 - count;
-  double d[6][3], m[6][3], gram[3][3] = {{0}}, sum[3] = {0};
+  double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
   for (int j = 6 - count; j < 6; j++) {
+    const double d[3] = {v[j], v[6 + j], v[12 + j]}, m[3] = {v[18 + j], v[24 + j], v[30 + j]};
+    const double square = sb_cad_dot(d, d);
     double turned[3];
-    for (int k = 0; k < 3; k++) {
-      d[j][k] = v[6 * k + j];
-      m[j][k] = v[6 * (k + 3) + j];
-    }
-    cross(turned, d[j], m[j]);
+    sb_cad_cross(turned, d, m);
     for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
-      gram[k / 3][k % 3] += (k % 4 == 0) * dot(d[j], d[j]) - d[j][k / 3] * d[j][k % 3];
+      gram[k / 3][k % 3] += (k % 4 == 0) * square - d[k / 3] * d[k % 3];
     }
     for (int k = 0; k < 3; k++) {
       sum[k] += turned[k];
+      axis->direction[k] = square > longest ? d[k] / sqrt(square) : axis->direction[k];
+      moment[k] = square > longest ? m[k] / sqrt(square) : moment[k];
     }
-    best = dot(d[j], d[j]) > dot(d[best], d[best]) ? j : best;
+    longest = fmax(longest, square);
   }
-  double across[3];
-  if (count == 3) {
-    double det[3];
-    cross(det, gram[0], gram[1]);
-    const double whole = dot(det, gram[2]);
-    for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
-      cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
-      p[k] = dot(across, sum) / whole;
-    }
-    count = whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
-  } else {
-    const double length = sqrt(dot(d[best], d[best]));
-    for (int k = 0; k < 3; k++) {
-      d[best][k] /= length;
-      m[best][k] /= length;
-    }
-    cross(p, d[best], m[best]);
-    memcpy(axis->direction, d[best], sizeof axis->direction);
+  if (count < 3) {
+    sb_cad_cross(p, axis->direction, moment);
     // Without a rotation, an extruded face; with a pitch, a thread.
-    count = length > ZERO && (count == 2 || fabs(dot(d[best], m[best])) < ZERO) ? count : 0;
+    const bool turns = count == 2 || fabs(sb_cad_dot(axis->direction, moment)) < ZERO;
+    return sqrt(longest) > ZERO && turns ? count : 0;
   }
-  return count;
+  double det[3], across[3];
+  sb_cad_cross(det, gram[0], gram[1]);
+  const double whole = sb_cad_dot(det, gram[2]);
+  for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
+    sb_cad_cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
+    p[k] = sb_cad_dot(across, sum) / whole;
+  }
+  return whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
 }
 
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
@@ -197,10 +178,10 @@ static int axis_of(Axis *axis, int tag) {
     for (int k = 0; k < 3; k++) {
       q[i][k] -= centre[k];
     }
-    size = fmax(size, sqrt(dot(q[i], q[i])));
+    size = fmax(size, sqrt(sb_cad_dot(q[i], q[i])));
   }
   for (int i = 0; i < SAMPLES; i++) {
-    cross(a + 6 * (size_t)i, q[i], n[i]);
+    sb_cad_cross(a + 6 * (size_t)i, q[i], n[i]);
     for (int k = 0; k < 3; k++) {
       a[6 * i + k] /= size;
       a[6 * i + 3 + k] = n[i][k];
@@ -231,8 +212,8 @@ static int axis_of(Axis *axis, int tag) {
 static double apart(const double a[3], const Axis *axis) {
   const double d[3] = {a[0] - axis->point[0], a[1] - axis->point[1], a[2] - axis->point[2]};
   double off[3];
-  cross(off, d, axis->direction);
-  return sqrt(dot(off, off));
+  sb_cad_cross(off, d, axis->direction);
+  return sqrt(sb_cad_dot(off, off));
 }
 
 // Adds the area of a face to those about its axis.
@@ -249,7 +230,7 @@ static void count_face(Axis *axes, int *count, int tag, const double wish[3]) {
     axis.direction[j] = isnan(wish[0]) ? j == 0 : wish[j];
   }
   while (k < *count && (axes[k].ball != axis.ball ||
-                        fabs(dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
+                        fabs(sb_cad_dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
                         apart(axis.point, &axes[k]) > SAME)) {
     k++;
   }
@@ -277,7 +258,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
   gmshFree(faces);
   *best = (Axis){.ball = true};
   for (int k = 0; k < found; k++) {
-    const bool fits = !directed || fabs(dot(axes[k].direction, direction)) >= 1 - PARALLEL;
+    const bool fits = !directed || fabs(sb_cad_dot(axes[k].direction, direction)) >= 1 - PARALLEL;
     const bool better = axes[k].ball == best->ball ? axes[k].area > best->area : best->ball;
     *best = fits && better ? axes[k] : *best;
   }
@@ -309,8 +290,8 @@ static void place(int *bodies, size_t count, const Axis *axis, double angle) {
   check(ierr, "the bodies cannot be moved");
   const double x[3] = {1, 0, 0};
   double by[3];
-  cross(by, axis->direction, x);
-  const double sine = sqrt(dot(by, by));
+  sb_cad_cross(by, axis->direction, x);
+  const double sine = sqrt(sb_cad_dot(by, by));
   if (sine > 1e-15) {
     gmshModelOccRotate(bodies, count, 0, 0, 0, by[0] / sine, by[1] / sine, by[2] / sine,
                        atan2(sine, axis->direction[0]), &ierr);
@@ -359,7 +340,7 @@ static bool print_edges(int face) {
       gmshModelGetType(1, edge.tag, &type, &ierr);
       const bool plain = ierr == 0 && (strcmp(type, "Line") == 0 || strcmp(type, "Circle") == 0);
       gmshFree(type);
-      good = sb_cad_curve(pieces, edge_at, &edge, plain ? 1 : 4, SB_CAD_TOLERANCE);
+      good = sb_cad_curve(pieces, edge_at, &edge, plain ? 1 : 4);
     }
     gmshFree(low);
     gmshFree(high);

@@ -11,37 +11,36 @@
 #include <string.h>
 
 // Sides that a valve's part may have [m]; how far the half-plane is from the vertex, so that no
-// vertex is on it [rad]; ends that are one point, and a piece that is none [m]; how much more
-// volume another half-plane must give, revolved; and when it need not be tried, relative.
-static const double SIDE_LEAST = 1e-3, SIDE_MOST = 40e-3, NEXT_TO = 1e-7, GAP = 1e-8, SHORT = 1e-9,
-                    MORE = 1e-3, ROUND = 0.02;
+// vertex is on it [rad]; a piece that is none [m]; how much more volume another half-plane must
+// give, revolved; and when it need not be tried, relative.
+static const double SIDE_LEAST = 1e-3, SIDE_MOST = 40e-3, NEXT_TO = 1e-7, SHORT = 1e-9, MORE = 1e-3,
+                    ROUND = 0.02;
 
 // Half-planes that are tried, one in each sector about the axis.
 enum { SECTORS = 8 };
 
-// A body: shells of a mesh, as triangles of it.
+// A connected part of the mesh; then a body with its cavities.
 typedef struct {
   GArray *triangles; // [3] vertex indices
+  double volume;     // signed: a cavity has a negative one
+  double low[3], high[3];
   SbSolid solid;
 } Shell;
 
-// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part, and
-// writes its length [m]; NULL with an error that names the plausible units.
-static const char *guess_unit(double side, double *scale, GError **error) {
-  static const struct {
-    const char *name;
-    double scale;
-  } units[] = {{"mm", 1e-3}, {"cm", 1e-2}, {"inch", 25.4e-3}, {"m", 1}, {"um", 1e-6}};
+// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part; NULL
+// with an error that names the plausible units.
+static const char *guess_unit(double side, GError **error) {
+  static const char *const units[] = {"mm", "cm", "inch", "m", "um"};
   const char *found = NULL;
   guint count = 0;
   g_autoptr(GString) all = g_string_new(NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(units); i++) {
-    const double real = side * units[i].scale;
-    if (real >= SIDE_LEAST && real <= SIDE_MOST) {
-      g_string_append_printf(all, "%s%.3g mm in %s", count++ > 0 ? ", " : "", 1e3 * real,
-                             units[i].name);
-      found = units[i].name;
-      *scale = units[i].scale;
+    double scale;
+    if (sb_unit_scale(&scale, units[i], "m", "mm", NULL) && side * scale >= SIDE_LEAST &&
+        side * scale <= SIDE_MOST) {
+      g_string_append_printf(all, "%s%.3g mm in %s", count++ > 0 ? ", " : "", 1e3 * side * scale,
+                             units[i]);
+      found = units[i];
     }
   }
   if (count != 1) {
@@ -55,8 +54,16 @@ static const char *guess_unit(double side, double *scale, GError **error) {
 
 // Shells ------------------------------------------------------------------------------------------
 
-static void clear_shell(gpointer data) {
+static void shell_free(gpointer data) {
   g_array_unref(((Shell *)data)->triangles);
+  g_free(data);
+}
+
+static Shell *shell_new(void) {
+  Shell *shell = g_new0(Shell, 1);
+  shell->triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned));
+  sb_stl_extent(NULL, 0, shell->low, shell->high);
+  return shell;
 }
 
 static unsigned root(unsigned *parent, unsigned v) {
@@ -66,116 +73,83 @@ static unsigned root(unsigned *parent, unsigned v) {
   return v;
 }
 
-// A connected part of the mesh.
-typedef struct {
-  double volume; // signed: a cavity has a negative one
-  double low[3], high[3];
-  guint owner, shell; // the part whose body it belongs to; index of that part's body
-} Part;
-
-// Adds a triangle's corners and its tetrahedron with the point `from`.
-static void add_triangle(Part *part, const double *const v[3], const double from[3]) {
-  double d[3][3];
+// Adds a triangle: its corners to the box, its tetrahedron with the vertex `from` to the volume.
+static void add_triangle(Shell *shell, const SbStl *stl, const unsigned corner[3], unsigned from) {
+  double d[3][3], normal[3];
   for (int k = 0; k < 3; k++) {
     for (int j = 0; j < 3; j++) {
-      part->low[j] = fmin(part->low[j], v[k][j]);
-      part->high[j] = fmax(part->high[j], v[k][j]);
-      d[k][j] = v[k][j] - from[j];
+      const double at = stl->vertices[3 * (gsize)corner[k] + (gsize)j];
+      shell->low[j] = fmin(shell->low[j], at);
+      shell->high[j] = fmax(shell->high[j], at);
+      d[k][j] = at - stl->vertices[3 * (gsize)from + (gsize)j];
     }
   }
-  part->volume += (d[0][0] * (d[1][1] * d[2][2] - d[1][2] * d[2][1]) +
-                   d[0][1] * (d[1][2] * d[2][0] - d[1][0] * d[2][2]) +
-                   d[0][2] * (d[1][0] * d[2][1] - d[1][1] * d[2][0])) /
-                  6;
+  sb_cad_cross(normal, d[1], d[2]);
+  shell->volume += sb_cad_dot(d[0], normal) / 6;
+  g_array_append_vals(shell->triangles, corner, 1);
 }
 
-// Returns the smallest part with a volume that encloses a cavity; the cavity itself if there is
-// none.
-static guint enclosing(const GArray *parts, guint cavity) {
-  const Part *inner = &g_array_index(parts, Part, cavity);
-  guint best = cavity;
-  for (guint i = 0; i < parts->len; i++) {
-    const Part *part = &g_array_index(parts, Part, i);
-    bool inside = part->volume > 0;
-    for (int k = 0; k < 3; k++) {
-      inside = inside && part->low[k] <= inner->low[k] && part->high[k] >= inner->high[k];
-    }
-    if (inside && (best == cavity || part->volume < g_array_index(parts, Part, best).volume)) {
-      best = i;
-    }
-  }
-  return best;
-}
-
-// Returns the connected parts of the mesh; `part_of` [vertices] receives the part of each
-// triangle's first vertex. NULL with an error if there are too many.
-static GArray *find_parts(const SbStl *stl, guint *part_of, GError **error) {
-  GArray *parts = g_array_new(FALSE, FALSE, sizeof(Part));
+// Returns the connected parts of the mesh in its order; NULL with an error if there are too many.
+static GPtrArray *find_shells(const SbStl *stl, GError **error) {
+  g_autoptr(GPtrArray) shells = g_ptr_array_new_with_free_func(shell_free);
   g_autofree unsigned *parent = g_new(unsigned, stl->vertex_count);
+  g_autofree Shell **shell_of = g_new0(Shell *, stl->vertex_count);
   for (gsize i = 0; i < stl->vertex_count; i++) {
     parent[i] = (unsigned)i;
-    part_of[i] = G_MAXUINT;
   }
   for (gsize i = 0; i < 3 * stl->triangle_count; i++) {
     parent[root(parent, stl->triangles[i])] = root(parent, stl->triangles[i - i % 3]);
   }
   guint solids = 0;
-  for (gsize i = 0; i < stl->triangle_count; i++) {
+  for (gsize i = 0; i < stl->triangle_count && shells->len <= 100 * SB_CAD_BODIES_MAX; i++) {
     const unsigned *corner = stl->triangles + 3 * i, top = root(parent, corner[0]);
-    if (part_of[top] == G_MAXUINT) {
-      const Part none = {
-          0, {INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}, 0, 0};
-      part_of[top] = parts->len;
-      g_array_append_val(parts, none);
+    if (shell_of[top] == NULL) {
+      shell_of[top] = shell_new();
+      g_ptr_array_add(shells, shell_of[top]);
     }
-    part_of[corner[0]] = part_of[top];
-    const double *const v[3] = {stl->vertices + 3 * (gsize)corner[0],
-                                stl->vertices + 3 * (gsize)corner[1],
-                                stl->vertices + 3 * (gsize)corner[2]};
-    add_triangle(&g_array_index(parts, Part, part_of[top]), v, stl->vertices + 3 * (gsize)top);
+    add_triangle(shell_of[top], stl, corner, top);
   }
-  for (guint i = 0; i < parts->len; i++) {
-    solids += g_array_index(parts, Part, i).volume > 0;
+  for (guint i = 0; i < shells->len; i++) {
+    solids += ((const Shell *)shells->pdata[i])->volume > 0;
   }
-  if (solids > SB_CAD_BODIES_MAX || parts->len > 100 * SB_CAD_BODIES_MAX) {
+  if (solids > SB_CAD_BODIES_MAX || shells->len > 100 * SB_CAD_BODIES_MAX) {
     sb_app_error_input(error, "it contains more than %d bodies: export the seal's parts alone",
                        SB_CAD_BODIES_MAX);
-    g_clear_pointer(&parts, g_array_unref);
-  }
-  return parts;
-}
-
-// Separates the bodies of a mesh, each with its cavities. NULL with an error.
-static GArray *separate(const SbStl *stl, GError **error) {
-  g_autofree guint *part_of = g_new(guint, stl->vertex_count);
-  g_autoptr(GArray) parts = find_parts(stl, part_of, error);
-  if (parts == NULL) {
     return NULL;
-  }
-  g_autoptr(GArray) shells = g_array_new(FALSE, FALSE, sizeof(Shell));
-  g_array_set_clear_func(shells, clear_shell);
-  for (guint i = 0; i < parts->len; i++) {
-    Part *part = &g_array_index(parts, Part, i);
-    part->owner = part->volume > 0 ? i : enclosing(parts, i);
-    if (part->owner == i) {
-      const Shell shell = {.triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned))};
-      part->shell = shells->len;
-      g_array_append_val(shells, shell);
-    }
-  }
-  for (gsize i = 0; i < stl->triangle_count; i++) {
-    const unsigned *corner = stl->triangles + 3 * i;
-    const guint owner = g_array_index(parts, Part, part_of[corner[0]]).owner;
-    const guint shell = g_array_index(parts, Part, owner).shell;
-    g_array_append_vals(g_array_index(shells, Shell, shell).triangles, corner, 1);
   }
   return g_steal_pointer(&shells);
 }
 
-// Measures the bodies where the mesh is now. False with an error if one is not closed.
-static bool measure(const SbStl *stl, GArray *shells, GError **error) {
+// Returns the smallest body that encloses a cavity; NULL if there is none.
+static Shell *enclosing(const GPtrArray *shells, const Shell *cavity) {
+  Shell *best = NULL;
   for (guint i = 0; i < shells->len; i++) {
-    Shell *shell = &g_array_index(shells, Shell, i);
+    Shell *shell = shells->pdata[i];
+    bool inside = shell->volume > 0;
+    for (int k = 0; k < 3; k++) {
+      inside = inside && shell->low[k] <= cavity->low[k] && shell->high[k] >= cavity->high[k];
+    }
+    best = inside && (best == NULL || shell->volume < best->volume) ? shell : best;
+  }
+  return best;
+}
+
+// Joins cavities to the bodies that enclose them.
+static void join_cavities(GPtrArray *shells) {
+  for (guint i = shells->len; i-- > 0;) {
+    const Shell *cavity = shells->pdata[i];
+    Shell *body = cavity->volume > 0 ? NULL : enclosing(shells, cavity);
+    if (body != NULL) {
+      g_array_append_vals(body->triangles, cavity->triangles->data, cavity->triangles->len);
+      g_ptr_array_remove_index(shells, i);
+    }
+  }
+}
+
+// Measures the bodies where the mesh is now. False with an error if one is not closed.
+static bool measure(const SbStl *stl, const GPtrArray *shells, GError **error) {
+  for (guint i = 0; i < shells->len; i++) {
+    Shell *shell = shells->pdata[i];
     SbReport report = {0};
     if (sb_solid_mesh(&shell->solid, stl->vertices, stl->vertex_count,
                       (const unsigned *)(void *)shell->triangles->data, shell->triangles->len, 1,
@@ -189,11 +163,11 @@ static bool measure(const SbStl *stl, GArray *shells, GError **error) {
 // The axis ----------------------------------------------------------------------------------------
 
 // How far the bodies are from bodies of revolution about an axis of the file.
-static double asymmetry(const GArray *shells, int axis) {
+static double asymmetry(const GPtrArray *shells, int axis) {
   const int a = (axis + 1) % 3, b = (axis + 2) % 3;
   double off = 0, sum = 0;
   for (guint i = 0; i < shells->len; i++) {
-    double(*const moment)[3] = g_array_index(shells, Shell, i).solid.inertia;
+    double(*const moment)[3] = ((Shell *)shells->pdata[i])->solid.inertia;
     off += hypot(moment[a][a] - moment[b][b], 2 * moment[a][b]);
     sum += moment[a][a] + moment[b][b];
   }
@@ -214,16 +188,13 @@ static void frame_of(double frame[3][3], const double axis[3]) {
   for (int k = 0; k < 3; k++) {
     frame[1][k] = ((k == next) - off * frame[0][k]) / norm;
   }
-  for (int k = 0; k < 3; k++) {
-    const int a = (k + 1) % 3, b = (k + 2) % 3;
-    frame[2][k] = frame[0][a] * frame[1][b] - frame[0][b] * frame[1][a];
-  }
+  sb_cad_cross(frame[2], frame[0], frame[1]);
 }
 
 static void turn_point(double point[3], const double frame[3][3]) {
   const double old[3] = {point[0], point[1], point[2]};
   for (int k = 0; k < 3; k++) {
-    point[k] = frame[k][0] * old[0] + frame[k][1] * old[1] + frame[k][2] * old[2];
+    point[k] = sb_cad_dot(frame[k], old);
   }
 }
 
@@ -313,18 +284,6 @@ static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell
   angle[first] = swap;
 }
 
-// Returns a drawing with a body and its half-section at an angle, and warnings.
-static SbCad *section_at(const SbStl *stl, const Shell *shell, const char *name, double angle) {
-  const SbCadChoices none = {0};
-  SbCad *cad = sb_cad_new("");
-  g_autoptr(GArray) pieces = cut(stl, shell, angle);
-  SbCadBody *body = sb_cad_body_new(name);
-  g_ptr_array_add(cad->bodies, body);
-  sb_cad_section(cad, body, pieces, GAP);
-  sb_cad_settle(cad, &none);
-  return cad;
-}
-
 // Adds a body with its half-section: without a chosen angle at the first of the farthest vertices,
 // or where the half-plane meets clearly more of the body, as next to ports.
 static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
@@ -332,33 +291,27 @@ static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const cha
   double angle[SECTORS];
   farthest(angle, stl, shell);
   angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
-  g_autoptr(SbCad) chosen = section_at(stl, shell, name, angle[0]);
-  for (int k = 1; choices->angle == NULL && k < SECTORS; k++) {
-    const double best = ((SbCadBody *)chosen->bodies->pdata[0])->revolved.volume;
-    if (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < ROUND) {
+  g_autoptr(SbCad) chosen = NULL;
+  double best = 0; // volume of the chosen half-section, revolved
+  for (int k = 0; k < (choices->angle == NULL ? SECTORS : 1); k++) {
+    if (k > 0 && (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < ROUND)) {
       continue;
     }
-    SbCad *tried = section_at(stl, shell, name, angle[k]);
-    const bool more = ((SbCadBody *)tried->bodies->pdata[0])->revolved.volume > (1 + MORE) * best;
+    SbCad *tried = sb_cad_new("");
+    SbCadBody *half = sb_cad_body_new(name);
+    g_autoptr(GArray) pieces = cut(stl, shell, angle[k]);
+    g_ptr_array_add(tried->bodies, half);
+    sb_cad_section(tried, half, pieces);
+    const bool more = k == 0 || half->revolved.volume > (1 + MORE) * best;
+    best = more ? half->revolved.volume : best;
     sb_cad_free(more ? chosen : tried);
     chosen = more ? tried : chosen;
   }
   SbCadBody *body = g_ptr_array_steal_index(chosen->bodies, 0);
-  g_array_set_size(body->features, 0);
-  g_ptr_array_extend_and_steal(cad->warnings, g_steal_pointer(&chosen->warnings));
-  chosen->warnings = g_ptr_array_new();
+  g_ptr_array_extend_and_steal(cad->warnings, g_ptr_array_ref(chosen->warnings));
   body->measured = true;
   body->solid = shell->solid;
   g_ptr_array_add(cad->bodies, body);
-}
-
-static char *name_of(const char *path) {
-  char *name = g_path_get_basename(path);
-  char *dot = strrchr(name, '.');
-  if (dot != NULL && dot > name) {
-    *dot = '\0';
-  }
-  return name;
 }
 
 // From the mesh in the file's own numbers.
@@ -366,16 +319,19 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   double low[3], high[3], scale = 0;
   sb_stl_extent(stl->vertices, stl->vertex_count, low, high);
   const double side = fmax(fmax(high[0] - low[0], high[1] - low[1]), high[2] - low[2]);
-  const char *unit = choices->unit;
-  if (unit != NULL ? !sb_unit_scale(&scale, unit, "m", "mm", error)
-                   : (unit = guess_unit(side, &scale, error)) == NULL) {
+  const char *unit = choices->unit != NULL ? choices->unit : guess_unit(side, error);
+  if (unit == NULL || !sb_unit_scale(&scale, unit, "m", "mm", error)) {
     return NULL;
   }
   for (gsize i = 0; i < 3 * stl->vertex_count; i++) {
     stl->vertices[i] *= scale;
   }
-  g_autoptr(GArray) shells = separate(stl, error);
-  if (shells == NULL || !measure(stl, shells, error)) {
+  g_autoptr(GPtrArray) shells = find_shells(stl, error);
+  if (shells == NULL) {
+    return NULL;
+  }
+  join_cavities(shells);
+  if (!measure(stl, shells, error)) {
     return NULL;
   }
   int along = 0;
@@ -397,10 +353,14 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     sb_note_add(cad->warnings, "an STL file states no unit: in %s its longest side is %.4g mm",
                 unit, 1e3 * scale * side);
   }
-  g_autofree char *name = name_of(path);
+  g_autofree char *name = g_path_get_basename(path);
+  char *dot = strrchr(name, '.');
+  if (dot != NULL && dot > name) {
+    *dot = '\0';
+  }
   for (guint i = 0; i < shells->len; i++) {
     g_autofree char *own = i > 0 ? g_strdup_printf("%s %u", name, i + 1) : g_strdup(name);
-    add_body(cad, stl, &g_array_index(shells, Shell, i), own, choices);
+    add_body(cad, stl, shells->pdata[i], own, choices);
   }
   sb_cad_settle(cad, choices);
   return cad;

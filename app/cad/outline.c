@@ -10,8 +10,9 @@
 enum { PIECES_MAX = 5000, NEAR_MAX = 1000000 };
 
 // Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
-// a circle from the next one that continues it, and of a line from points on it [m].
-static const double SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8;
+// a circle from the next one that continues it, and of a line from points on it; ends that are one
+// point where a body is cut [m].
+static const double SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8;
 
 static SbCadPiece reversed(SbCadPiece piece) {
   return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
@@ -24,48 +25,44 @@ static double length_of(const SbCadPiece *piece) {
   return half > 0 ? chord * half / sin(half) : chord;
 }
 
-// The unused piece with the end that is nearest to (x, y), turned to begin there; -1 if none lies
-// within `gap`.
-static int next_piece(SbCadPiece *out, const GArray *pieces, const bool *used, double x, double y,
-                      double gap) {
-  int best = -1;
+// Returns whether a chain ends where it begins and is longer than the gap between ends.
+static bool closes(const GArray *chain, double gap) {
+  const SbCadPiece *first = &g_array_index(chain, SbCadPiece, 0);
+  const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
+  bool good = hypot(last->x1 - first->x0, last->y1 - first->y0) <= gap;
+  double length = 0;
+  for (guint i = 0; good && length <= 2 * gap && i < chain->len; i++) {
+    length += length_of(&g_array_index(chain, SbCadPiece, i));
+  }
+  return good && length > 2 * gap;
+}
+
+// Appends the unused piece with the end that is nearest to the end of `chain`, turned to begin
+// there; false if none is within `gap`.
+static bool append_next(GArray *chain, const GArray *pieces, bool *used, double gap) {
+  const SbCadPiece last = g_array_index(chain, SbCadPiece, chain->len - 1);
+  guint best = pieces->len;
+  SbCadPiece next = last;
   double nearest = gap * gap;
   for (guint i = 0; i < pieces->len; i++) {
     if (used[i]) {
       continue;
     }
     const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    const double dx0 = piece->x0 - x, dy0 = piece->y0 - y, first = dx0 * dx0 + dy0 * dy0;
-    const double dx1 = piece->x1 - x, dy1 = piece->y1 - y, last = dx1 * dx1 + dy1 * dy1;
-    if (fmin(first, last) <= nearest) {
-      nearest = fmin(first, last);
-      best = (int)i;
-      *out = first <= last ? *piece : reversed(*piece);
+    const double dx0 = piece->x0 - last.x1, dy0 = piece->y0 - last.y1;
+    const double dx1 = piece->x1 - last.x1, dy1 = piece->y1 - last.y1;
+    const double begin = dx0 * dx0 + dy0 * dy0, end = dx1 * dx1 + dy1 * dy1;
+    if (fmin(begin, end) <= nearest) {
+      nearest = fmin(begin, end);
+      best = i;
+      next = begin <= end ? *piece : reversed(*piece);
     }
   }
-  return best;
-}
-
-// Adds pieces to the end of `chain` until it closes or none follows; whether it closes.
-static bool extend(GArray *chain, const GArray *pieces, bool *used, double gap) {
-  const SbCadPiece first = g_array_index(chain, SbCadPiece, 0);
-  double length = 0;
-  for (guint i = 0;;) {
-    const SbCadPiece last = g_array_index(chain, SbCadPiece, chain->len - 1);
-    for (; i < chain->len; i++) {
-      length += length_of(&g_array_index(chain, SbCadPiece, i));
-    }
-    if (hypot(last.x1 - first.x0, last.y1 - first.y0) <= gap && length > 2 * gap) {
-      return true;
-    }
-    SbCadPiece next;
-    const int found = next_piece(&next, pieces, used, last.x1, last.y1, gap);
-    if (found < 0) {
-      return false;
-    }
-    used[found] = true;
+  if (best < pieces->len) {
+    used[best] = true;
     g_array_append_val(chain, next);
   }
+  return best < pieces->len;
 }
 
 static void turn(GArray *chain) {
@@ -308,7 +305,7 @@ static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
 }
 
 // A closed outline, or one that begins and ends on the axis, as a half-section.
-static void half_section(SbCadBody *body, const GArray *chain, bool closed, double gap) {
+static void half_section(SbCadBody *body, const GArray *chain, double gap) {
   g_autoptr(GArray) above = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   for (guint i = 0; i < chain->len; i++) {
     clip(above, g_array_index(chain, SbCadPiece, i), gap);
@@ -331,17 +328,7 @@ static void half_section(SbCadBody *body, const GArray *chain, bool closed, doub
   for (guint i = 0; i < above->len; i++) {
     g_array_append_val(turned, g_array_index(above, SbCadPiece, (begin + i) % above->len));
   }
-  to_profile(body, turned, breaks == 0 && closed);
-}
-
-typedef struct {
-  GArray *chain; // of SbCadPiece
-  bool closed;
-  double high; // largest y
-} Outline;
-
-static void clear_outline(gpointer data) {
-  g_array_unref(((Outline *)data)->chain);
+  to_profile(body, turned, breaks == 0 && closes(chain, gap));
 }
 
 // Largest y of a chain.
@@ -377,12 +364,11 @@ static void note_open(SbCad *cad, const char *name, const GArray *ends) {
               sb_number_round(gap, 1e3 * sqrt(largest), 3));
 }
 
-// Finds the closed outlines, and the open ones that end on the axis.
-static GArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
+// Finds the closed outlines, and the open ones that end on the axis, as chains of SbCadPiece.
+static GPtrArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
   g_autofree bool *used = g_new0(bool, pieces->len + 1);
-  GArray *outlines = g_array_new(FALSE, FALSE, sizeof(Outline));
+  GPtrArray *outlines = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
   g_autoptr(GArray) ends = g_array_new(FALSE, FALSE, 2 * sizeof(double));
-  g_array_set_clear_func(outlines, clear_outline);
   for (guint i = 0; i < pieces->len; i++) {
     // Pieces on the axis close what ends there; a centre line is no part of an outline.
     used[i] = on_axis(&g_array_index(pieces, SbCadPiece, i), gap);
@@ -392,23 +378,23 @@ static GArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name,
       continue;
     }
     used[i] = true;
-    Outline outline = {g_array_new(FALSE, FALSE, sizeof(SbCadPiece)), false, 0};
-    g_array_append_val(outline.chain, g_array_index(pieces, SbCadPiece, i));
-    outline.closed = extend(outline.chain, pieces, used, gap);
-    if (!outline.closed) {
-      turn(outline.chain);
-      outline.closed = extend(outline.chain, pieces, used, gap);
+    g_autoptr(GArray) chain = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+    g_array_append_val(chain, g_array_index(pieces, SbCadPiece, i));
+    for (int way = 0; way < 2 && !closes(chain, gap); way++) {
+      if (way == 1) {
+        turn(chain);
+      }
+      while (!closes(chain, gap) && append_next(chain, pieces, used, gap)) {
+      }
     }
-    const SbCadPiece *first = &g_array_index(outline.chain, SbCadPiece, 0);
-    const SbCadPiece *last = &g_array_index(outline.chain, SbCadPiece, outline.chain->len - 1);
-    if (!outline.closed && (fabs(first->y0) > gap || fabs(last->y1) > gap)) {
+    const SbCadPiece *first = &g_array_index(chain, SbCadPiece, 0);
+    const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
+    if (closes(chain, gap) || (fabs(first->y0) <= gap && fabs(last->y1) <= gap)) {
+      g_ptr_array_add(outlines, g_steal_pointer(&chain));
+    } else {
       const double pair[2][2] = {{first->x0, first->y0}, {last->x1, last->y1}};
       g_array_append_vals(ends, pair, 2);
-      g_array_unref(outline.chain);
-      continue;
     }
-    outline.high = top_of(outline.chain);
-    g_array_append_val(outlines, outline);
   }
   if (ends->len > 0) {
     note_open(cad, name, ends);
@@ -434,27 +420,27 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
   }
   guint doubled = 0, made = 0;
   g_autoptr(GArray) single = tidied(pieces, fmin(gap, DOUBLED), &doubled);
-  g_autoptr(GArray) outlines = find_outlines(cad, single, name, gap);
+  g_autoptr(GPtrArray) outlines = find_outlines(cad, single, name, gap);
   if (doubled > 0) {
     sb_note_add(cad->warnings, "%s: %u piece%s drawn twice: left out", name, doubled,
                 doubled > 1 ? "s" : "");
   }
   bool above = false;
   for (guint i = 0; i < outlines->len; i++) {
-    above = above || g_array_index(outlines, Outline, i).high > gap;
+    above = above || top_of(outlines->pdata[i]) > gap;
   }
   for (guint i = 0; i < outlines->len; i++) {
-    const Outline *outline = &g_array_index(outlines, Outline, i);
-    if ((above && outline->high <= gap) || cad->bodies->len >= SB_CAD_BODIES_MAX) {
+    GArray *chain = outlines->pdata[i];
+    if ((above && top_of(chain) <= gap) || cad->bodies->len >= SB_CAD_BODIES_MAX) {
       continue; // the other half of a whole section
     }
-    for (guint k = 0; !above && k < outline->chain->len; k++) {
-      SbCadPiece *piece = &g_array_index(outline->chain, SbCadPiece, k);
+    for (guint k = 0; !above && k < chain->len; k++) {
+      SbCadPiece *piece = &g_array_index(chain, SbCadPiece, k);
       *piece = (SbCadPiece){piece->x0, -piece->y0, piece->x1, -piece->y1, -piece->bulge};
     }
     g_autofree char *own = made > 0 ? g_strdup_printf("%s %u", name, made + 1) : g_strdup(name);
     SbCadBody *body = sb_cad_body_new(own);
-    half_section(body, outline->chain, outline->closed, gap);
+    half_section(body, chain, gap);
     if (body->why == NULL && is_degenerate(body->profile, gap)) {
       sb_cad_body_free(body);
       continue;
@@ -464,12 +450,12 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
   }
 }
 
-void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces, double gap) {
+void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
   g_autoptr(SbCad) found = sb_cad_new("");
   const SbCadChoices none = {0};
   const SbCadBody *best = NULL;
   guint count = 0;
-  sb_cad_outlines(found, pieces, body->name, gap);
+  sb_cad_outlines(found, pieces, body->name, CUT_GAP);
   sb_cad_settle(found, &none);
   for (guint i = 0; i < found->bodies->len; i++) {
     const SbCadBody *one = found->bodies->pdata[i];
@@ -489,4 +475,5 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces, double ga
   }
   g_array_append_vals(body->profile, best->profile->data, best->profile->len);
   body->closed = best->closed;
+  body->revolved = best->revolved;
 }

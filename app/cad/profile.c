@@ -22,37 +22,31 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
   g_auto(GStrv) words = g_strsplit_set(text, " \t\r\n", -1);
   g_autoptr(GArray) points = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
   double scale = 0;
-  for (char **word = words; *word != NULL; word++) {
+  bool good = true;
+  for (char **word = words; good && *word != NULL; word++) {
+    SbProfilePoint point;
     if (**word == '\0') {
       continue;
     }
     if (scale == 0) {
-      if (!sb_unit_scale(&scale, *word, "m", "mm", NULL)) {
-        sb_app_error_input(error, "starts with the unit of its points, not '%s'", *word);
-        return NULL;
-      }
-      continue;
+      good = sb_unit_scale(&scale, *word, "m", "mm", NULL) ||
+             sb_app_error_input(error, "starts with the unit of its points, not '%s'", *word);
+    } else if (points->len == SB_PROFILE_MAX) {
+      good = sb_app_error_input(error, "has more than %d points", SB_PROFILE_MAX);
+    } else if (!read_point(&point, *word, scale)) {
+      good = sb_app_error_input(error, "point %u is not x,r or x,r,bulge", points->len + 1);
+    } else {
+      g_array_append_val(points, point);
     }
-    SbProfilePoint point;
-    if (points->len == SB_PROFILE_MAX) {
-      sb_app_error_input(error, "has more than %d points", SB_PROFILE_MAX);
-      return NULL;
-    }
-    if (!read_point(&point, *word, scale)) {
-      sb_app_error_input(error, "point %u is not x,r or x,r,bulge", points->len + 1);
-      return NULL;
-    }
-    g_array_append_val(points, point);
   }
   const SbProfilePoint *point = (const SbProfilePoint *)(void *)points->data;
   const guint count = points->len;
   *closed = count > 1 && point[0].x == point[count - 1].x && point[0].r == point[count - 1].r;
   g_array_set_size(points, count - (*closed ? 1 : 0));
-  if (points->len < 2) {
-    sb_app_error_input(error, "has %u points, not two or more", points->len);
-    return NULL;
+  if (good && points->len < 2) {
+    good = sb_app_error_input(error, "has %u points, not two or more", points->len);
   }
-  return g_steal_pointer(&points);
+  return good ? g_steal_pointer(&points) : NULL;
 }
 
 double sb_profile_area(const GArray *profile) {

@@ -100,7 +100,7 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
     }
     const bool end = strcmp(line, "end") == 0;
     if ((end || g_str_has_prefix(line, "body ")) && body != NULL) {
-      sb_cad_section(cad, body, pieces, 1e-8);
+      sb_cad_section(cad, body, pieces);
       g_array_set_size(pieces, 0);
     }
     if (end) {

@@ -33,7 +33,7 @@ gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **er
 gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
                       const char *name, GError **error);
 
-// Writes the corners of the bounding box of points[count][3].
+// Writes the corners of the bounding box of points[count][3]; of no points, INFINITY and -INFINITY.
 void sb_stl_extent(const double *points, gsize count, double low[3], double high[3]);
 
 // Frees the arrays; the mesh is then empty and may be cleared again. Takes NULL.

@@ -25,10 +25,6 @@ static GPtrArray *folders(const char *directory) {
   return out;
 }
 
-static int by_name(const void *a, const void *b) {
-  return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
 char **sb_rubber_sheet_names(const char *directory) {
   g_autoptr(GPtrArray) places = folders(directory);
   if (directory != NULL) {
@@ -45,7 +41,7 @@ char **sb_rubber_sheet_names(const char *directory) {
       }
     }
   }
-  g_ptr_array_sort(names, by_name);
+  g_ptr_array_sort(names, sb_note_compare);
   g_ptr_array_add(names, NULL);
   return (char **)g_ptr_array_free(names, FALSE);
 }

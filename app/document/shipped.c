@@ -1,6 +1,8 @@
 // What ships with the program; see the header.
 #include "app/document/shipped.h"
 
+#include "app/base/issue.h"
+
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
@@ -137,10 +139,6 @@ char *sb_shipped_runs(void) {
   return find(places, "piston.run", false);
 }
 
-static int by_name(const void *a, const void *b) {
-  return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
 GPtrArray *sb_shipped_files(SbShippedKind kind) {
   GPtrArray *out = g_ptr_array_new_with_free_func(g_free);
   g_autofree char *folder = kind_folder(kind);
@@ -151,7 +149,7 @@ GPtrArray *sb_shipped_files(SbShippedKind kind) {
       g_ptr_array_add(out, g_steal_pointer(&path));
     }
   }
-  g_ptr_array_sort(out, by_name);
+  g_ptr_array_sort(out, sb_note_compare);
   return out;
 }
 
