@@ -107,6 +107,14 @@ int sb_number_compare(const void *a, const void *b) {
   return (x > y) - (x < y);
 }
 
+double sb_number_median(double *value, size_t count) {
+  if (count == 0) {
+    return NAN;
+  }
+  qsort(value, count, sizeof *value, sb_number_compare);
+  return 0.5 * (value[(count - 1) / 2] + value[count / 2]);
+}
+
 // Splits "d.ddde[+-]xx" into digits without trailing zeros and the decimal exponent.
 static int split(char digits[SB_NUMBER_SIZE], const char *scientific) {
   int count = 0;

@@ -24,6 +24,9 @@ bool sb_number_parse(double *out, const char *text);
 // Compares two doubles for qsort(): ascending.
 int sb_number_compare(const void *a, const void *b);
 
+// Sorts `value` in place, ascending, and returns the median; not a number if `count` is 0.
+double sb_number_median(double *value, size_t count);
+
 // Writes a finite `value` with the fewest of 1 to 17 significant digits that read back exactly, a
 // point as decimal mark and an exponent only where that is shorter to read: 0.00161, 2.5e+06.
 // Returns `text`. A value that is not finite becomes "nan", "inf" or "-inf".

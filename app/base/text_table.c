@@ -22,15 +22,13 @@ typedef struct {
 } Sample;
 
 enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into memory
-
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
+enum { HEAD_BYTES = 1 << 16 }; // looked at for the encoding
 
 const char *const sb_text_table_encodings[] = {"any",      "utf-8",     "latin-1", "utf-16le",
                                                "utf-16be", "shift-jis", NULL};
 
 // ---- Bytes ----
-
-enum { HEAD_BYTES = 1 << 16 };
 
 // Whether text that is not UTF-8 is Shift-JIS rather than Windows-1252: pairs of bytes only, of
 // which some begin as kana and common characters do, where Windows-1252 has rare signs.

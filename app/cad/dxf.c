@@ -727,10 +727,6 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
   return cad;
 }
 
-static GHashTable *names_to(GDestroyNotify value_free) {
-  return g_hash_table_new_full(g_str_hash, g_str_equal, g_free, value_free);
-}
-
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error) {
   static const char mark[] = "\xEF\xBB\xBF"; // of UTF-8
@@ -740,9 +736,9 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                .end = text + length,
                .separator = memchr(text, '\n', length) != NULL ? '\n' : '\r'},
       .model = block_new(),
-      .blocks = names_to(block_free),
-      .hidden = names_to(NULL),
-      .left_out = names_to(NULL),
+      .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
+      .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+      .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
       .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),

@@ -59,13 +59,6 @@ static void shell_free(gpointer data) {
   g_free(data);
 }
 
-static Shell *shell_new(void) {
-  Shell *shell = g_new0(Shell, 1);
-  shell->triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned));
-  sb_stl_extent(NULL, 0, shell->low, shell->high);
-  return shell;
-}
-
 static unsigned root(unsigned *parent, unsigned v) {
   while (parent[v] != v) {
     v = parent[v] = parent[parent[v]];
@@ -104,8 +97,10 @@ static GPtrArray *find_shells(const SbStl *stl, GError **error) {
   for (gsize i = 0; i < stl->triangle_count && shells->len <= 100 * SB_CAD_BODIES_MAX; i++) {
     const unsigned *corner = stl->triangles + 3 * i, top = root(parent, corner[0]);
     if (shell_of[top] == NULL) {
-      shell_of[top] = shell_new();
-      g_ptr_array_add(shells, shell_of[top]);
+      Shell *shell = shell_of[top] = g_new0(Shell, 1);
+      shell->triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned));
+      sb_stl_extent(NULL, 0, shell->low, shell->high);
+      g_ptr_array_add(shells, shell);
     }
     add_triangle(shell_of[top], stl, corner, top);
   }

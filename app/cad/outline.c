@@ -228,10 +228,6 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   }
 }
 
-static bool on_axis(const SbCadPiece *piece, double gap) {
-  return piece->bulge == 0 && fabs(piece->y0) <= gap && fabs(piece->y1) <= gap;
-}
-
 // Joins the piece `next` to the arc `last` if both are of one circle.
 static bool join_arcs(SbCadPiece *last, const SbCadPiece *next) {
   const SbArc a = sb_cad_circle(last), b = sb_cad_circle(next);
@@ -371,7 +367,8 @@ static GPtrArray *find_outlines(SbCad *cad, const GArray *pieces, const char *na
   g_autoptr(GArray) ends = g_array_new(FALSE, FALSE, 2 * sizeof(double));
   for (guint i = 0; i < pieces->len; i++) {
     // Pieces on the axis close what ends there; a centre line is no part of an outline.
-    used[i] = on_axis(&g_array_index(pieces, SbCadPiece, i), gap);
+    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    used[i] = piece->bulge == 0 && fabs(piece->y0) <= gap && fabs(piece->y1) <= gap;
   }
   for (guint i = 0; i < pieces->len; i++) {
     if (used[i]) {

@@ -1,7 +1,7 @@
 // Starts programs and reads the processor time that the system reports for each; see the header.
 #include "app/cli/start_up.h"
 
-#include "app/cli/timing.h"
+#include "app/base/number.h"
 
 #include <fcntl.h>
 #include <glib.h>
@@ -46,7 +46,7 @@ static double measure(const char *path, const char *words, int repeats) {
     least = MIN(least, times[i]);
   }
   close(nowhere);
-  return least < 0 ? -1 : sb_timing_middle(times, (size_t)repeats);
+  return least < 0 ? -1 : sb_number_median(times, (size_t)repeats);
 }
 
 // Number of shared objects that the dynamic linker lists instead of running the program, as ldd

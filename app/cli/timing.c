@@ -1,18 +1,7 @@
 // Medians of repeated solves.
 #include "app/cli/timing.h"
 
-#include <stdlib.h>
-
-static int compare(const void *a, const void *b) {
-  double x = *(const double *)a;
-  double y = *(const double *)b;
-  return (x > y) - (x < y);
-}
-
-double sb_timing_middle(double *times, size_t count) {
-  qsort(times, count, sizeof times[0], compare);
-  return (times[(count - 1) / 2] + times[count / 2]) / 2;
-}
+#include "app/base/number.h"
 
 SbStatus sb_timing_median(double *wall_s, SbTimedSolve solve, void *data) {
   enum { REPEATS = 20 };
@@ -27,7 +16,7 @@ SbStatus sb_timing_median(double *wall_s, SbTimedSolve solve, void *data) {
     count++;
   }
   if (status == SB_OK && count > 0) {
-    *wall_s = sb_timing_middle(times, (size_t)count);
+    *wall_s = sb_number_median(times, (size_t)count);
   }
   return status;
 }

@@ -3,15 +3,10 @@
 
 #include "engine/base/status.h"
 
-#include <stddef.h>
-
 // Note of commands that print such a time.
 #define SB_TIMING_NOTE                                                                             \
   "The time shown (wall_s) is the median of up to 20 cold solves after a warm-up; fewer if they "  \
   "would last more than half a second together."
-
-// Sorts `times` in place and returns their median; count > 0.
-double sb_timing_middle(double *times, size_t count);
 
 // Solves once, from scratch, and writes the time that the solve took to *wall_s [s].
 typedef SbStatus (*SbTimedSolve)(void *data, double *wall_s);

@@ -13,18 +13,9 @@
 #include "engine/numeric/dense.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { LOOKED = 20000, BINS = 160 };
-
-static double median(double *value, size_t count) {
-  if (count == 0) {
-    return NAN;
-  }
-  qsort(value, count, sizeof *value, sb_number_compare);
-  return 0.5 * (value[(count - 1) / 2] + value[count / 2]);
-}
 
 // Median force of at most LOOKED of the rows of [begin, end) with a displacement in [low, high].
 static double median_force(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
@@ -36,7 +27,7 @@ static double median_force(const SbMeasured *m, size_t begin, size_t end, double
       value[count++] = m->force[i];
     }
   }
-  return median(value, count);
+  return sb_number_median(value, count);
 }
 
 static void range_of(double *low, double *high, const double *value, size_t count) {
@@ -279,7 +270,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     }
     if (count >= 4) {
       m->zero = SB_HOW_FOUND;
-      m->at_rest = median(place, count);
+      m->at_rest = sb_number_median(place, count);
     }
   }
   for (size_t i = 0; i < m->count; i++) {
@@ -318,7 +309,7 @@ static void find_noise(SbMeasured *m) {
       value[count++] = fabs(m->force[i - 1] - 2 * m->force[i] + m->force[i + 1]);
     }
   }
-  m->noise = count >= 8 ? median(value, count) / (0.6745 * sqrt(6)) : NAN;
+  m->noise = count >= 8 ? sb_number_median(value, count) / (0.6745 * sqrt(6)) : NAN;
   if (m->no_load_rows > 0 && isfinite(m->noise)) {
     m->no_load_deviation = m->noise / sqrt((double)m->no_load_rows);
   }
