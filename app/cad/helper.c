@@ -34,13 +34,6 @@ static const rlim_t MEMORY_MAX = (rlim_t)4 << 30;
 // What standard output was: the kernel prints there as it likes, from now on to nowhere.
 static FILE *out;
 
-static void take_output(void) {
-  out = fdopen(dup(STDOUT_FILENO), "w");
-  if (out == NULL || freopen("/dev/null", "w", stdout) == NULL) {
-    exit(1);
-  }
-}
-
 // Each second: ends the program if it has not used the processor for too long.
 static void on_alarm(int signal_number) {
   static clock_t before;
@@ -402,8 +395,7 @@ static void print_body(int body, int number) {
   char *name = NULL;
   gmshModelGetEntityName(3, body, &name, &ierr);
   // "Shapes/Assembly/stem": the last part; one line, whatever it holds.
-  const char *whole = ierr == 0 && name != NULL ? name : "";
-  const char *slash = strrchr(whole, '/');
+  const char *whole = ierr == 0 && name != NULL ? name : "", *slash = strrchr(whole, '/');
   const char *last = slash != NULL ? slash + 1 : whole;
   // What the kernel writes where it was given no name.
   last = strncmp(last, "Open CASCADE STEP translator", 28) == 0 ? "" : last;
@@ -457,7 +449,10 @@ int main(int argc, char **argv) {
     fprintf(stderr, "usage: sealbench-cad FILE.step ANGLE DX DY DZ PX PY PZ\n");
     return 1;
   }
-  take_output();
+  out = fdopen(dup(STDOUT_FILENO), "w");
+  if (out == NULL || freopen("/dev/null", "w", stdout) == NULL) {
+    return 1;
+  }
   int ierr, *bodies = NULL;
   size_t count = 0;
   gmshInitialize(0, NULL, 0, &ierr);
@@ -472,31 +467,27 @@ int main(int argc, char **argv) {
   size_t solids = 0;
   for (size_t i = 0; i + 1 < count; i += 2) {
     if (bodies[i] == 3) {
-      bodies[2 * solids] = 3;
-      bodies[2 * solids + 1] = bodies[i + 1];
-      solids++;
+      memmove(bodies + 2 * solids++, bodies + i, 2 * sizeof *bodies);
     }
   }
   check(solids == 0, "it contains no solid body");
   check(solids > SB_CAD_BODIES_MAX,
         "it contains more than 200 bodies: export only the seal's parts");
   Axis axis = {0};
-  double direction[3], through[3], length = 0;
+  double direction[3], through[3];
   for (int k = 0; k < 3; k++) {
     direction[k] = strtod(argv[3 + k], NULL);
     through[k] = strtod(argv[6 + k], NULL) / SCALE;
-    length = hypot(length, direction[k]);
   }
+  const double length = hypot(hypot(direction[0], direction[1]), direction[2]);
   for (int k = 0; k < 3; k++) {
     direction[k] /= length;
   }
   gsl_set_error_handler_off();
   check(!find_axis(&axis, bodies, 2 * solids, direction, through),
         "it has no face of revolution, so no axis: specify it with --axis and --through");
-  print_numbers("axis",
-                (double[]){SCALE * axis.point[0], SCALE * axis.point[1], SCALE * axis.point[2],
-                           axis.direction[0], axis.direction[1], axis.direction[2]},
-                6);
+  const double *p = axis.point, *d = axis.direction;
+  print_numbers("axis", (double[]){SCALE * p[0], SCALE * p[1], SCALE * p[2], d[0], d[1], d[2]}, 6);
   place(bodies, 2 * solids, &axis, strtod(argv[2], NULL));
   for (size_t i = 0; i < solids; i++) {
     print_body(bodies[2 * i + 1], (int)i + 1);

@@ -82,8 +82,35 @@ static void add_triangle(Shell *shell, const SbStl *stl, const unsigned corner[3
   g_array_append_vals(shell->triangles, corner, 1);
 }
 
-// Returns the connected parts of the mesh in its order; NULL with an error if there are too many.
-static GPtrArray *find_shells(const SbStl *stl, GError **error) {
+// Returns the smallest body that encloses a cavity; NULL if there is none.
+static Shell *enclosing(const GPtrArray *shells, const Shell *cavity) {
+  Shell *best = NULL;
+  for (guint i = 0; i < shells->len; i++) {
+    Shell *shell = shells->pdata[i];
+    bool inside = shell->volume > 0;
+    for (int k = 0; k < 3; k++) {
+      inside = inside && shell->low[k] <= cavity->low[k] && shell->high[k] >= cavity->high[k];
+    }
+    best = inside && (best == NULL || shell->volume < best->volume) ? shell : best;
+  }
+  return best;
+}
+
+// Joins cavities to the bodies that enclose them.
+static void join_cavities(GPtrArray *shells) {
+  for (guint i = shells->len; i-- > 0;) {
+    const Shell *cavity = shells->pdata[i];
+    Shell *body = cavity->volume > 0 ? NULL : enclosing(shells, cavity);
+    if (body != NULL) {
+      g_array_append_vals(body->triangles, cavity->triangles->data, cavity->triangles->len);
+      g_ptr_array_remove_index(shells, i);
+    }
+  }
+}
+
+// Returns the bodies of the mesh in its order, each a connected part of it with its cavities; NULL
+// with an error if there are too many.
+static GPtrArray *find_bodies(const SbStl *stl, GError **error) {
   g_autoptr(GPtrArray) shells = g_ptr_array_new_with_free_func(shell_free);
   g_autofree unsigned *parent = g_new(unsigned, stl->vertex_count);
   g_autofree Shell **shell_of = g_new0(Shell *, stl->vertex_count);
@@ -112,33 +139,8 @@ static GPtrArray *find_shells(const SbStl *stl, GError **error) {
                        SB_CAD_BODIES_MAX);
     return NULL;
   }
+  join_cavities(shells);
   return g_steal_pointer(&shells);
-}
-
-// Returns the smallest body that encloses a cavity; NULL if there is none.
-static Shell *enclosing(const GPtrArray *shells, const Shell *cavity) {
-  Shell *best = NULL;
-  for (guint i = 0; i < shells->len; i++) {
-    Shell *shell = shells->pdata[i];
-    bool inside = shell->volume > 0;
-    for (int k = 0; k < 3; k++) {
-      inside = inside && shell->low[k] <= cavity->low[k] && shell->high[k] >= cavity->high[k];
-    }
-    best = inside && (best == NULL || shell->volume < best->volume) ? shell : best;
-  }
-  return best;
-}
-
-// Joins cavities to the bodies that enclose them.
-static void join_cavities(GPtrArray *shells) {
-  for (guint i = shells->len; i-- > 0;) {
-    const Shell *cavity = shells->pdata[i];
-    Shell *body = cavity->volume > 0 ? NULL : enclosing(shells, cavity);
-    if (body != NULL) {
-      g_array_append_vals(body->triangles, cavity->triangles->data, cavity->triangles->len);
-      g_ptr_array_remove_index(shells, i);
-    }
-  }
 }
 
 // Measures the bodies where the mesh is now. False with an error if one is not closed.
@@ -321,12 +323,8 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   for (gsize i = 0; i < 3 * stl->vertex_count; i++) {
     stl->vertices[i] *= scale;
   }
-  g_autoptr(GPtrArray) shells = find_shells(stl, error);
-  if (shells == NULL) {
-    return NULL;
-  }
-  join_cavities(shells);
-  if (!measure(stl, shells, error)) {
+  g_autoptr(GPtrArray) shells = find_bodies(stl, error);
+  if (shells == NULL || !measure(stl, shells, error)) {
     return NULL;
   }
   int along = 0;

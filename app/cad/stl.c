@@ -218,8 +218,6 @@ static bool read_text(GArray *corners, const char *data, gsize length, GError **
   return !inside || sb_app_error_input(error, "ends before 'endsolid'");
 }
 
-// ---- public ----
-
 bool sb_cad_is_stl(const char *data, gsize length) {
   return is_binary(data, length) || (length >= 5 && g_ascii_strncasecmp(data, "solid", 5) == 0);
 }

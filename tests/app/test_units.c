@@ -264,6 +264,10 @@ static void test_numbers(void) {
     }
   }
   g_rand_free(random);
+  double odd[] = {3, -1, 2}, even[] = {4, 1, 3, 2};
+  g_assert_cmpfloat(sb_number_median(odd, 3), ==, 2);
+  g_assert_cmpfloat(sb_number_median(even, 4), ==, 2.5);
+  g_assert_true(isnan(sb_number_median(even, 0)));
   g_assert_cmpstr(sb_number_round(text, 27.4567, 3), ==, "27.5");
   g_assert_cmpstr(sb_number_round(text, 1.7204e-9, 3), ==, "1.72e-09");
   g_assert_cmpstr(sb_number_round(text, -1234567, 2), ==, "-1200000");

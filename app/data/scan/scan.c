@@ -133,8 +133,6 @@ void sb_scan_clear(SbScan *scan) {
   g_free(scan->heights.z);
   g_free(scan->title);
   g_free(scan->sha256);
-  if (scan->notes != NULL) {
-    g_ptr_array_unref(scan->notes);
-  }
+  g_clear_pointer(&scan->notes, g_ptr_array_unref);
   *scan = (SbScan){0};
 }

@@ -168,15 +168,11 @@ static void take_channel(GArray *channels, const Component *each) {
   }
 }
 
-static bool is_height(const Channel *channel) {
-  Field field;
-  return read_field(&field, &channel->data, NULL) && strcmp(field.unit_z, "m") == 0;
-}
-
 // The one that is requested, else the only one of heights.
 static const Channel *choose(const GArray *channels, const char *wanted, GError **error) {
   const Channel *found = NULL;
   int count = 0;
+  Field field;
   g_autoptr(GString) list = g_string_new(NULL);
   for (guint i = 0; i < channels->len; i++) {
     const Channel *channel = &g_array_index(channels, Channel, i);
@@ -184,8 +180,9 @@ static const Channel *choose(const GArray *channels, const char *wanted, GError 
     if (channel->data.value == NULL) {
       continue;
     }
-    if (wanted != NULL ? strcmp(number, wanted) == 0 || g_strcmp0(channel->title, wanted) == 0
-                       : is_height(channel)) {
+    if (wanted != NULL
+            ? strcmp(number, wanted) == 0 || g_strcmp0(channel->title, wanted) == 0
+            : read_field(&field, &channel->data, NULL) && strcmp(field.unit_z, "m") == 0) {
       count++;
       found = channel;
     }

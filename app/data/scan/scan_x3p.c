@@ -104,9 +104,7 @@ static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most,
     sb_app_error_input(error, "\"%s\" cannot be unpacked", name);
     g_clear_pointer(&out, g_free);
   }
-  if (file != NULL) {
-    zip_fclose(file);
-  }
+  g_clear_pointer(&file, zip_fclose);
   *size = about.size;
   return out;
 }
