@@ -1,0 +1,140 @@
+// Keys of measured data: reads what they choose, and writes what was recognised; see measured.h.
+#include "app/data/measured_private.h"
+
+#include <string.h>
+
+static const char *const separator_names[] = {"comma", "semicolon", "tab", "blank", NULL};
+static const char *const decimal_names[] = {"point", "comma", NULL};
+const char *const sb_measured_directions[] = {"as-is", "force", "displacement", "both", NULL};
+// Their characters; the first one, of an absent key, is to be recognised.
+static const char separators[] = "\0,;\t ", decimals[] = "\0.,";
+
+size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
+                        GPtrArray *issues) {
+  size_t index = 0;
+  while (data->text[key] != NULL && names[index] != NULL &&
+         strcmp(names[index], data->text[key]) != 0) {
+    index++;
+  }
+  if (names[index] == NULL) {
+    g_autofree char *allowed = g_strjoinv(", ", (char **)names);
+    sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
+  }
+  return data->text[key] != NULL ? index + 1 : 0;
+}
+
+bool sb_measured_dialect(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues) {
+  static const char *const signals[] = {"force over displacement", NULL};
+  const guint before = issues->len;
+  wish->separator = separators[sb_measured_word(data, SB_DATA_SEPARATOR, separator_names, issues)];
+  wish->decimal = decimals[sb_measured_word(data, SB_DATA_DECIMAL, decimal_names, issues)];
+  wish->encoding = (SbTextTableEncoding)sb_measured_word(data, SB_DATA_ENCODING,
+                                                         sb_text_table_encodings + 1, issues);
+  (void)sb_measured_word(data, SB_DATA_SIGNAL, signals, issues);
+  return issues->len == before;
+}
+
+static const char *separator_name(const SbMeasured *m) {
+  return separator_names[strchr(separators + 1, m->dialect.separator) - separators - 1];
+}
+
+static const char *decimal_name(const SbMeasured *m) {
+  return decimal_names[strchr(decimals + 1, m->dialect.decimal) - decimals - 1];
+}
+
+char *sb_measured_keys(const SbMeasured *m) {
+  GString *out = g_string_new(NULL);
+  g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m),
+                         decimal_name(m), sb_text_table_encodings[m->dialect.encoding]);
+  size_t last = 1;
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    last = MAX(last, m->column[c].at);
+  }
+  for (int units = 0; units < 2; units++) {
+    g_string_append(out, units ? "units = " : "columns = ");
+    for (size_t i = 1; i <= last; i++) {
+      const char *word = "-";
+      for (int c = 0; c < SB_CHANNELS; c++) {
+        if (m->column[c].at == i) {
+          word = !units               ? sb_channel_name((SbChannel)c)
+                 : m->column[c].clock ? "-"
+                                      : m->column[c].unit;
+        }
+      }
+      g_string_append_printf(out, "%s%s", i > 1 ? ", " : "", word);
+    }
+    g_string_append_c(out, '\n');
+  }
+  if (m->speed > 0) {
+    g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
+    g_string_append_printf(out, "speed = %s\n", speed);
+  }
+  g_autofree char *rest = sb_quantity_format(m->at_rest, "m", "mm");
+  g_autofree char *load = sb_quantity_format(m->no_load, "N", "N");
+  g_autofree char *slope = sb_quantity_format(m->slope, "m/N", "mm/N");
+  g_string_append_printf(out, "direction = %s\nzero = %s, %s\ncompliance = %s\n",
+                         sb_measured_directions[m->turned_force + 2 * m->turned_displacement], rest,
+                         load, slope);
+  if (m->first == 0 && m->last + 1 == m->cycle->len) {
+    g_string_append(out, "cycle = all\n");
+  } else {
+    g_string_append_printf(out, "cycle = %zu\n", m->first + 1);
+  }
+  return g_string_free(out, FALSE);
+}
+
+char *sb_measured_text(const SbMeasured *m) {
+  static const char *const hows[] = {"not in the data, used unchanged", "found", "as specified"};
+  GString *out = g_string_new(NULL);
+  g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n", separator_name(m),
+                         decimal_name(m), sb_text_table_encodings[m->dialect.encoding],
+                         m->header_lines);
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    if (m->column[c].at > 0) {
+      g_string_append_printf(out, "%s: column %zu \"%s\" in %s (%s)\n",
+                             sb_channel_name((SbChannel)c), m->column[c].at, m->column[c].name,
+                             m->column[c].unit, hows[m->column[c].how]);
+    }
+  }
+  if (m->specimens > 1) {
+    g_string_append_printf(
+        out, "%zu specimens side by side: the first is used, `columns` selects another\n",
+        m->specimens);
+  }
+  if (m->speed > 0) {
+    g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
+    g_string_append_printf(
+        out, "displacement: by the time at %s (%s), up to the maximum force and back\n", speed,
+        m->speed_how == SB_HOW_SAID ? "as specified" : "the drive's, assumed");
+  }
+  g_string_append_printf(out, "%zu rows", m->count);
+  if (m->behind > 0) {
+    g_string_append_printf(out, ", %zu after the first cycle left out", m->behind);
+  }
+  if (m->dropped > 0) {
+    g_string_append_printf(out, ", %zu with a cell that is empty or cannot be read dropped",
+                           m->dropped);
+  }
+  if (m->lines.skipped > 0) {
+    g_string_append_printf(out, ", %zu lines between them are not rows (line %d: \"%s\")",
+                           m->lines.skipped, m->lines.left_line, m->lines.left_text);
+  }
+  char digits[3][SB_NUMBER_SIZE];
+  g_string_append_printf(out, "\n%u cycles, ", m->cycle->len);
+  if (m->first == 0 && m->last + 1 == m->cycle->len) {
+    g_string_append(out, "all used\n");
+  } else {
+    g_string_append_printf(out, "number %zu used\n", m->first + 1);
+  }
+  g_string_append_printf(out, "reversed: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
+                         m->turned_force || m->turned_displacement
+                             ? sb_measured_directions[m->turned_force + 2 * m->turned_displacement]
+                             : "nothing",
+                         hows[m->direction], sb_number_round(digits[0], m->at_rest * 1e3, 6),
+                         hows[m->zero], sb_number_round(digits[1], m->no_load, 5),
+                         hows[m->force_zero]);
+  g_string_append_printf(out, "compliance %s um/N (%s), noise %s N\n",
+                         sb_number_round(digits[0], m->slope * 1e6, 4), hows[m->compliance],
+                         sb_number_round(digits[1], m->noise, 3));
+  return g_string_free(out, FALSE);
+}
