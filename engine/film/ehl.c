@@ -12,6 +12,8 @@
 // covers the fraction theta = flux film/h of the length, in streamers of full height that the wall
 // shears: theta eta u/h. Validity: mean-gap Reynolds equation without flow factors (isotropic
 // roughness; factors are near 1 above h = 2 sigma), and the ranges of the rough law.
+//
+// Long: cold and warm starts, with and without asperities, share the levels and their estimate.
 #include "engine/film/ehl.h"
 
 #include <gsl/gsl_sf_legendre.h>

@@ -21,6 +21,8 @@
 // so every step keeps the elastic equation, load and flux linear. The rows are Reynolds' equation
 // from node to node, or p = 0 in the cavity, the end pressures and the load. A step is shortened
 // only where the gap would fall by more than the rough law's parameter can follow.
+//
+// Long: smooth and rough rows share the linear system and the limits of a step.
 #include "engine/film/ehl.h"
 
 #include "engine/numeric/dense.h"

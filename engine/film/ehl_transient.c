@@ -3,6 +3,8 @@
 // BDF2 on the fluid height m of the cells with uneven steps. The difference from the parabola
 // through the last three heights gives the local error of the step (third order), whose mean over
 // the contact must be below a fraction of the tolerance.
+//
+// Long: the history of BDF2 is begun, moved to other meshes and advanced here only.
 #include "engine/film/ehl_transient.h"
 
 #include "engine/numeric/legendre.h"

@@ -3,6 +3,8 @@
 // How it finds its first states: ring_place.c; its other meshes: ring_remesh.c. Equations and
 // validity: ring_fem.c, ring_contact.c, ring_newton.c. Leaves out twist, buckling out of the
 // section's plane, adhesion.
+//
+// Long: input, scale, groove and steps of one object, whose state is changed here only.
 #include "engine/base/check.h"
 #include "engine/contact/ring/ring_private.h"
 

@@ -13,6 +13,8 @@
 // of the local pressure, a fraction of area times shear(n . R / area). Both are exact, without a
 // regularising stiffness. The states follow the motion like the active set of the normal contact.
 // Not modelled: adhesion, rate, wear, a separate static coefficient.
+//
+// Long: the sets of the normal contact and of friction change the states of the same nodes.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>

@@ -175,6 +175,11 @@ static SbStatus tip(SbRing *ring, double share, SbReport *report) {
   return sb_ring_advance(ring, &dragged, SB_RING_FOLLOW, report);
 }
 
+// Follows the states of a ring that slides by the arc length of their path until the friction
+// coefficient is `aim`, or until the ring rolls or jams. Returns SB_ERROR_NOT_CONVERGED where the
+// path has no further state.
+// Long: the branches of a step (accepted, halved, on another mesh, moved to the wall, at the limit)
+// share its length and direction and the record of the largest friction.
 static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
   double length = ARC, direction[2] = {0.0, 1.0}, most = 0.0, most_turn = 0.0, level = 0.0,
          level_turn = 0.0;

@@ -5,6 +5,8 @@
 // Bathe 1987). Seven-point quadrature (degree 5). The tangent is consistent and symmetric; bubble
 // and pressure are eliminated in each element, so the sparse matrix holds nodal displacements only.
 // Leaves out inertia, thermal strain and rate.
+//
+// Long: the compiler inlines the steps of an element, which have fixed sizes, into one loop.
 #include "engine/contact/ring/ring_fem.h"
 #include "engine/contact/ring/ring_quad.h"
 

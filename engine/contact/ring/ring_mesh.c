@@ -4,6 +4,8 @@
 // requires, so the mesh is fine under a contact and at its edges and coarse inside. A structured
 // quadrilateral grid would continue the fine spacing through the section. The two halves share the
 // axis of symmetry; equal plans give mirrored meshes. Own construction.
+//
+// Long: plan, rows, triangles and smoothing are steps of one construction on the same arrays.
 #include "engine/contact/ring/ring_mesh.h"
 #include "engine/numeric/root.h"
 

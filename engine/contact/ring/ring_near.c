@@ -9,6 +9,8 @@
 // larger elements are sufficient, the coarse copy, or a coarser one, replaces the ring. The last
 // solve is the same balance as that of any ring. The path only enters through friction on floor and
 // walls, which sees the motion from the solved ring to the new one as monotonic.
+//
+// Long: the attempts share the coarse copy, its displacement and the transfer to a mesh.
 #include "engine/contact/ring/ring_private.h"
 
 #include <math.h>

@@ -168,6 +168,7 @@ static void take_half(SbRing *ring, double *step, double friction, double change
   ring->contact->is.now.friction_bore = friction + *step * change;
 }
 
+// Long: the conditions that shorten, repeat or end an iteration depend on the same counters.
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
   const int iterations_max = path == SB_RING_SEALED ? SEALED_ITERATIONS : ITERATIONS_MAX;
   SbRingContact *contact = ring->contact;

@@ -6,6 +6,8 @@
 // (Ruppert 1995), so that every side remains an edge. Then inner vertices are moved to the mean of
 // their neighbours, and edges are swapped, if that improves the worst triangle. Own construction.
 // The mesh of a symmetric outline is not symmetric.
+//
+// Long: boundary, triangulation, refinement and smoothing are steps on one set of triangles.
 #include "engine/contact/ring/ring_mesh.h"
 
 #include <math.h>

@@ -33,15 +33,8 @@ enum { FORCE, BREAKAWAY, RETURN, DOSE, FIGURES, MODULUS = FIGURES, STRAIN = FIGU
 enum { ALL, PRESSURE, FILM, RUBBER, EXPANSION, PARTS, SOLVED = PARTS };
 _Static_assert((int)PARTS == (int)SB_PROPELLANTS_PARTS, "other parts");
 // A full cycle at 15 temperatures, every 5 degC of the default range; where it costs little 29.
-enum {
-  POINTS = SB_PROPELLANTS_POINTS,
-  CYCLES = 15,
-  FLUIDS = SB_PROPELLANTS_FLUIDS,
-  TABLE = SB_PROPELLANTS_TABLE,
-  FIRST = 6,
-  MORE = 2,
-  MOST = 8
-};
+enum { POINTS = SB_PROPELLANTS_POINTS, CYCLES = 15, FIRST = 6, MORE = 2, MOST = 8 };
+enum { FLUIDS = SB_PROPELLANTS_FLUIDS, TABLE = SB_PROPELLANTS_TABLE };
 
 // Propellants come first behind the fluid without figures. The grid of
 // assets/studies/propellants.study has all of each.
