@@ -45,6 +45,15 @@ def a_bookmark_is_clicked(folder):
         wait("none", lambda: app.label(r"^None yet"))
 
 
+def save_until(app, path, line):
+    """Saves the document until it has the line."""
+    def saved():
+        app.waction("save")
+        with open(path) as file:
+            return line + "\n" in file.read()
+    wait("%r in %s" % (line, path), saved)
+
+
 def notes_are_kept(folder):
     path = scene(folder)
     with App(path) as app:
@@ -53,13 +62,13 @@ def notes_are_kept(folder):
         app.press("toggle button", "Notes and bookmarks")
         note = app.find("text", "Note")
         note.queryEditableText().setTextContents("Ask for a cold can.\nAnd a wide one.")
-        wait("an edited document", lambda: app.label(r", edited$"))
+        # Stored a moment after the last letter, while the text still has the focus.
+        save_until(app, path, "review = Ask for a cold can.\\nAnd a wide one.")
         # On a design without a name of its own: it gets the one that it is shown by.
-        combo = app.find("combo box", "Note on")
         app.choose("Note on", "design: radial space 1.36 mm")
         wait("an empty note", lambda: app.text(note) == "")
         note.queryEditableText().setTextContents("as shipped")
-        wait("another subject", lambda: combo is not None)
+        save_until(app, path, "radial space 1.36 mm = as shipped")
         app.choose("Note on", "the whole")
         wait("the first note", lambda: app.text(note).startswith("Ask for"))
         app.waction("save")

@@ -28,7 +28,8 @@ typedef struct {
   int subject;      // shown, -1: none
   char *shown;      // what the lists show
   SbLater later;    // refresh()
-  SbLater take;     // stores the typed text; due while some is not stored
+  SbLater take;     // stores the typed text
+  gboolean typed;   // text was typed that is not stored
   gboolean filling; // the text is being put there by us
 } Notes;
 
@@ -59,10 +60,10 @@ static void tell(Notes *notes, const char *problem) {
 // Puts what was typed where it belongs.
 static void take(Notes *notes) {
   Subject *subject = subject_now(notes);
-  if (!sb_later_is_due(&notes->take) || subject == NULL) {
+  sb_later_cancel(&notes->take);
+  if (!notes->typed || subject == NULL) {
     return;
   }
-  sb_later_cancel(&notes->take);
   g_autofree char *text = typed(notes);
   g_autoptr(GError) error = NULL;
   // A design that others are told apart from by its values gets them as its name now.
@@ -73,6 +74,7 @@ static void take(Notes *notes) {
   }
   const gboolean good = sb_session_put_remark(notes->session, SB_REMARK_NOTE, subject->name,
                                               *text != '\0' ? text : NULL, &error);
+  notes->typed = !good;
   g_autofree char *problem = good ? NULL : g_strdup_printf(_("Not stored: it %s"), error->message);
   tell(notes, problem);
 }
@@ -83,6 +85,7 @@ static void on_take(gpointer data) {
 
 static void on_typed(GtkTextBuffer *buffer, Notes *notes) {
   if (!notes->filling) {
+    notes->typed = TRUE;
     sb_later_set(&notes->take, notes->button, TAKE_MS, on_take, notes);
   }
 }
@@ -96,12 +99,19 @@ static void fill_text(Notes *notes) {
   gtk_text_buffer_set_text(gtk_text_view_get_buffer(GTK_TEXT_VIEW(notes->text)),
                            text != NULL ? text : "", -1);
   notes->filling = FALSE;
+  notes->typed = FALSE;
   tell(notes, NULL);
 }
 
 static void on_subject(GtkComboBox *combo, Notes *notes) {
   if (!notes->filling) {
     take(notes);
+    if (notes->typed) { // it could not be stored
+      notes->filling = TRUE;
+      gtk_combo_box_set_active(combo, notes->subject);
+      notes->filling = FALSE;
+      return;
+    }
     notes->subject = gtk_combo_box_get_active(combo);
     fill_text(notes);
   }
@@ -293,7 +303,7 @@ static void refresh(gpointer data) {
   const Subject *subject = subject_now(notes);
   const char *now = sb_document_remark(document, SB_REMARK_NOTE, subject->name);
   g_autofree char *here = typed(notes);
-  if (!sb_later_is_due(&notes->take) && strcmp(here, now != NULL ? now : "") != 0) {
+  if (!notes->typed && strcmp(here, now != NULL ? now : "") != 0) {
     fill_text(notes);
   }
 }
