@@ -91,10 +91,14 @@ static SbStatus emit_frames(SbRun *run, const SbRunHooks *hooks, SbReport *repor
 // Returns the error of the cycle's works that the films' error causes, divided by the largest
 // external work.
 static double error_work(const SbRun *run) {
-  double peak = run->summary.force_peak;
+  const double peak = run->summary.force_peak;
   // Static friction does work only over the machine's deflection before the stem slips.
-  double yields = fmin(1, peak / (run->model->stiffness * run->model->stroke));
-  return peak > 0 ? SB_SEAL_COUNT * (run->friction_error + yields * run->static_error) / peak : 0;
+  const double yields = fmin(1, peak / (run->model->stiffness * run->model->stroke));
+  double error = 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    error += run->friction_error[seal] + yields * run->static_error[seal];
+  }
+  return peak > 0 ? error / peak : 0;
 }
 
 // Energies, forces and outcome of the cycle; `out` has its stages.

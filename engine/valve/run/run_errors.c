@@ -415,6 +415,10 @@ SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report) {
 }
 
 double sb_run_error_friction(const SbRun *run) {
-  double peak = run->summary.force_peak;
-  return peak > 0 ? SB_SEAL_COUNT * fmax(run->friction_error, run->static_error) / peak : 0;
+  const double peak = run->summary.force_peak;
+  double error = 0;
+  for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
+    error += fmax(run->friction_error[seal], run->static_error[seal]);
+  }
+  return peak > 0 ? error / peak : 0;
 }

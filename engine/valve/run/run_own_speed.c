@@ -9,6 +9,8 @@
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
+#include <string.h>
+
 // Speed of the same valve with closed forms, for a run of solved rings.
 static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   static const SbOverride closed[] = {{SB_P_MODELS_FIT, SB_FIT_KARASZKIEWICZ},
@@ -80,8 +82,8 @@ void sb_run_store_states(SbRun *run, SbStatus status) {
   out->solved = status == SB_OK && !own && !plan->life && !plan->profiles && !plan->film_history;
   if (out->solved) {
     out->cycle = run->cycle;
-    out->friction_error = run->friction_error;
-    out->static_error = run->static_error;
+    memcpy(out->friction_error, run->friction_error, sizeof out->friction_error);
+    memcpy(out->static_error, run->static_error, sizeof out->static_error);
     out->error_film = summary->error_film;
     out->error_load = summary->error_load;
     out->error_width = summary->error_width;
@@ -96,8 +98,8 @@ void sb_run_restore_states(SbRun *run) {
   SbSummary *summary = &run->summary;
   run->cycle = from->cycle;
   run->cycle.model = run->model;
-  run->friction_error = from->friction_error;
-  run->static_error = from->static_error;
+  memcpy(run->friction_error, from->friction_error, sizeof run->friction_error);
+  memcpy(run->static_error, from->static_error, sizeof run->static_error);
   summary->error_film = from->error_film;
   summary->error_load = from->error_load;
   summary->error_width = from->error_width;

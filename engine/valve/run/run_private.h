@@ -120,7 +120,8 @@ typedef struct {
   // Copies of SbRun.cycle, friction_error, static_error, of the summary's error_film, error_load,
   // error_width, of SbRun.lacks, and of the counters and warnings of the solves.
   SbCycle cycle;
-  double friction_error, static_error, error_film, error_load, error_width;
+  double friction_error[SB_SEAL_COUNT], static_error[SB_SEAL_COUNT];
+  double error_film, error_load, error_width;
   SbReport lacks;
   SbCounters counters;
   SbWarnings warnings;
@@ -164,7 +165,8 @@ struct SbRun {
   SbSealState shown[SB_SEAL_COUNT][2];  // states for the seals' figures, by way
   SbBore bore;                          // layers of the last motion under the outer seal
   SbFilm film;                          // work memory for films that belong to no state
-  double friction_error, static_error;  // largest error of a state's kinetic, static friction [N]
+  // Largest error of a state's kinetic, static friction [N].
+  double friction_error[SB_SEAL_COUNT], static_error[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS]; // by sb_run_profile_slot()
   SbRunShape shape[SB_RUN_SHAPES];            // seal x SB_RUN_SEAL_SHAPES + index
   SbRunEdge edge[2];                          // range over the inner ring, by way

@@ -274,8 +274,12 @@ SbStatus sb_run_close_speeds(SbRun *run, SbReport *report) {
     table->solves = 0;
     if (table->error > 0) {
       summary->error_film = fmax(summary->error_film, table->error);
-      run->friction_error =
-          fmax(run->friction_error, table->friction_error * sb_sliding_friction(&table->base));
+      // Both seals may use a table. The forces of a motion without inertia are those of the states
+      // at its own speed.
+      const double friction = table->friction_error * sb_sliding_friction(&table->base);
+      for (int seal = 0; run->plan.inertia && seal < SB_SEAL_COUNT; seal++) {
+        run->friction_error[seal] = fmax(run->friction_error[seal], friction);
+      }
     }
   }
   status = sb_work_status(run->work, status, report);

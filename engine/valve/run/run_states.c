@@ -434,8 +434,8 @@ static void join(SbRun *run, Lane *lane) {
   if (run->lacks.status == SB_OK) {
     run->lacks = lane->lacks;
   }
-  run->friction_error = fmax(run->friction_error, lane->friction_error);
-  run->static_error = fmax(run->static_error, lane->static_error);
+  run->friction_error[lane->seal] = fmax(lane->friction_error, 0);
+  run->static_error[lane->seal] = fmax(lane->static_error, 0);
   summary->error_film = fmax(summary->error_film, lane->error_film);
   summary->error_load = fmax(summary->error_load, lane->error_load);
   summary->error_width = fmax(summary->error_width, lane->error_width);
@@ -449,7 +449,8 @@ SbStatus sb_run_solve_all(SbRun *run, const SbRunHooks *hooks, SbReport *report)
   summary->error_film = NAN;
   summary->error_load = summary->error_width = 0;
   (void)sb_succeed(&run->lacks);
-  run->friction_error = run->static_error = 0;
+  memset(run->friction_error, 0, sizeof run->friction_error);
+  memset(run->static_error, 0, sizeof run->static_error);
   run->cycle.model = run->model;
   Lane *lane = calloc(SB_SEAL_COUNT, sizeof *lane);
   if (lane == NULL) {

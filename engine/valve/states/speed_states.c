@@ -204,34 +204,48 @@ static Miss miss_of(const SbSpeedStates *states, const SbSpeedCell *cell, bool p
 // Distance of the two states from the reference speed, in ln(speed).
 static const double BESIDE = 0.1;
 
-// Computes the values at a speed near the reference; false if there is no parabola.
+// Solves the two neighbours of the reference state, whose values are `here`.
+static void solve_beside(SbSpeedStates *states, const double here[SB_SPEED_VALUES]) {
+  const double reference = fabs(states->task.speed);
+  states->beside_known = true;
+  states->beside_usable = solve(states->beside[0], states, reference * exp(-BESIDE)) &&
+                          solve(states->beside[1], states, reference * exp(BESIDE));
+  if (!states->beside_usable) {
+    return;
+  }
+  double guess[SB_SPEED_VALUES];
+  for (int k = 0; k < SB_SPEED_VALUES; k++) {
+    guess[k] = 0.5 * (states->beside[0][k] + states->beside[1][k]);
+  }
+  const Miss miss = miss_at(states, reference, here, guess);
+  states->beside_usable = miss.most <= SB_SPEED_TOLERANCE;
+  states->beside_error = miss.film;
+  states->beside_friction_error = miss.friction;
+}
+
+// Computes the values at a speed near the reference; false if there is no parabola. Its error has
+// the factor t (1 - t^2): the deviation from a straight line times t is at least as large where the
+// third difference is at most three times the second one (test_run_speeds.c, beside).
 static bool is_beside(double out[SB_SPEED_VALUES], SbSpeedStates *states, double speed) {
-  const double reference = fabs(states->task.speed), t = log(speed / reference) / BESIDE;
+  const double t = log(speed / fabs(states->task.speed)) / BESIDE;
   if (!states->near || fabs(t) > 1) {
     return false;
   }
   double here[SB_SPEED_VALUES];
   take(here, &states->base);
   if (!states->beside_known) {
-    double guess[SB_SPEED_VALUES];
-    states->beside_known = true;
-    const bool solved = solve(states->beside[0], states, reference * exp(-BESIDE)) &&
-                        solve(states->beside[1], states, reference * exp(BESIDE));
-    for (int k = 0; k < SB_SPEED_VALUES && solved; k++) {
-      guess[k] = 0.5 * (states->beside[0][k] + states->beside[1][k]);
-    }
-    const Miss miss = solved ? miss_at(states, reference, here, guess) : (Miss){.most = NAN};
-    states->beside_usable = miss.most <= SB_SPEED_TOLERANCE;
-    if (states->beside_usable) {
-      states->error = fmax(states->error, miss.film);
-      states->friction_error = fmax(states->friction_error, miss.friction);
-    }
+    solve_beside(states, here);
   }
-  for (int k = 0; k < SB_SPEED_VALUES && states->beside_usable; k++) {
+  if (!states->beside_usable) {
+    return false;
+  }
+  states->error = fmax(states->error, fabs(t) * states->beside_error);
+  states->friction_error = fmax(states->friction_error, fabs(t) * states->beside_friction_error);
+  for (int k = 0; k < SB_SPEED_VALUES; k++) {
     const double below = states->beside[0][k], above = states->beside[1][k];
     out[k] = here[k] + 0.5 * t * (above - below + t * (above - 2 * here[k] + below));
   }
-  return states->beside_usable;
+  return true;
 }
 
 // Returns the estimated error of the cubic in friction: that of the parabola times twice its ratio

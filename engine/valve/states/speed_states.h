@@ -14,8 +14,9 @@
 // to speed.
 //
 // If only speeds near the reference speed are requested (`near`), two states at 10 % lower and
-// higher speed and the reference state form a parabola, whose curvature is the error estimate;
-// above SB_SPEED_TOLERANCE cells are used.
+// higher speed and the reference state form a parabola. Its deviation from a straight line, in
+// proportion to the largest distance from the reference that was requested, is the error estimate;
+// where it deviates by more than SB_SPEED_TOLERANCE, cells are used.
 //
 // Below 1 um/s and above 10 m/s the film is that at these speeds. A film that cannot be solved is
 // extrapolated from the reference state with the power 0.6 of the speed, with a warning.
@@ -57,14 +58,16 @@ typedef struct {
   bool on_body;       // the film is on `body`
   SbSlidingBody body;
   bool near; // only speeds near the reference will be requested; cells are half a decade wide
-  bool beside_known, beside_usable;  // the two neighbouring states were tried; are usable
-  double beside[2][SB_SPEED_VALUES]; // at lower and higher speed
-  double power;                      // exponent of a power law film, else NAN
+  bool beside_known, beside_usable;           // the two neighbouring states were tried; are usable
+  double beside[2][SB_SPEED_VALUES];          // at lower and higher speed
+  double beside_error, beside_friction_error; // the parabola's relative errors: film, friction
+  double power;                               // exponent of a power law film, else NAN
   double starved_from; // speed from which on `starved` applies [m/s]; NAN: not yet known
   double starved[SB_SPEED_VALUES];
   size_t solves;         // number of states solved
-  double error;          // relative error of the films: their largest deviation in a used cell
-  double friction_error; // relative error of the friction that remains with the cubic
+  double error;          // relative error of the films: their largest deviation in a used cell, or
+                         // that of the parabola
+  double friction_error; // relative error of the friction that remains with cubic or parabola
   // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available.
   SbStatus status;
   size_t nodes, cells;
