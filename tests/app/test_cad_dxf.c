@@ -1,0 +1,393 @@
+// DXF by its specification: blocks, coordinates, splines, what is left out, untidy outlines, units.
+#include "tests/app/drawing.h"
+
+#include "app/base/error.h"
+
+#include <math.h>
+#include <string.h>
+
+// ---- Blocks ----
+
+static GString *begin_blocks(void) {
+  GString *dxf = drawing_begin(4);
+  // The section of the entities comes last.
+  const char entities[] = "  0\r\nSECTION\r\n  2\r\nENTITIES\r\n";
+  g_assert_true(g_str_has_suffix(dxf->str, entities));
+  g_string_truncate(dxf, dxf->len - strlen(entities));
+  drawing_put(dxf, 0, "SECTION");
+  drawing_put(dxf, 2, "BLOCKS");
+  return dxf;
+}
+
+static void begin_block(GString *dxf, const char *name, double x, double y) {
+  drawing_put(dxf, 0, "BLOCK");
+  drawing_put(dxf, 8, "0");
+  drawing_put(dxf, 2, "%s", name);
+  drawing_put(dxf, 10, "%.15g", x);
+  drawing_put(dxf, 20, "%.15g", y);
+}
+
+static void begin_entities(GString *dxf) {
+  drawing_put(dxf, 0, "ENDSEC");
+  drawing_put(dxf, 0, "SECTION");
+  drawing_put(dxf, 2, "ENTITIES");
+}
+
+static void put_insert(GString *dxf, const char *name, double x, double y, double scale_x,
+                       double scale_y, double turn) {
+  drawing_put(dxf, 0, "INSERT");
+  drawing_put(dxf, 8, "Stem centre");
+  drawing_put(dxf, 2, "%s", name);
+  drawing_put(dxf, 10, "%.15g", x);
+  drawing_put(dxf, 20, "%.15g", y);
+  drawing_put(dxf, 41, "%.15g", scale_x);
+  drawing_put(dxf, 42, "%.15g", scale_y);
+  drawing_put(dxf, 50, "%.15g", turn);
+}
+
+// The stem drawn once in a block, at half size, off its place, below the axis and turned, within
+// another block that is turned back and mirrored: the same body.
+static void test_blocks(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GString) dxf = begin_blocks();
+  const DrawingPlace off = {1, 2, 0};
+  begin_block(dxf, "OUTER", 0, 0);
+  put_insert(dxf, "STEM", 3, 4, 2, -2, 30); // used before it is defined
+  drawing_put(dxf, 0, "ENDBLK");
+  begin_block(dxf, "STEM", 1, 2);
+  drawing_stem(dxf, &off, 0.5, -1);
+  drawing_put(dxf, 0, "MTEXT");
+  drawing_put(dxf, 8, "0");
+  drawing_put(dxf, 0, "ENDBLK");
+  begin_entities(dxf);
+  // OUTER's point (3, 4) comes to the origin, its 30 degrees to none.
+  const double c = cos(G_PI / 6), s = sin(G_PI / 6);
+  put_insert(dxf, "OUTER", -(3 * c + 4 * s), -(4 * c - 3 * s), 1, 1, -30);
+  put_insert(dxf, "NOWHERE", 0, 0, 1, 1, 0);
+  drawing_end(dxf);
+  g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+  drawing_check_stem_alone(cad, "left out: 1 INSERT, 1 MTEXT");
+}
+
+// A circle that is stretched to an ellipse is revolved to a torus of its area; a row of them.
+static void test_stretched_block(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GString) dxf = begin_blocks();
+  begin_block(dxf, "O", 0, 0);
+  drawing_put(dxf, 0, "CIRCLE");
+  drawing_put(dxf, 8, "0");
+  drawing_put(dxf, 10, "0");
+  drawing_put(dxf, 20, "0");
+  drawing_put(dxf, 40, "1");
+  drawing_put(dxf, 0, "ENDBLK");
+  begin_entities(dxf);
+  put_insert(dxf, "O", 0, 5, 2, 0.5, 90);
+  drawing_put(dxf, 70, "3");
+  drawing_put(dxf, 45, "0");
+  drawing_put(dxf, 44, "10");
+  drawing_end(dxf);
+  g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+  g_assert_cmpuint(cad->bodies->len, ==, 3); // turned by 90 degrees, columns go outwards
+  double volume = 0;
+  for (guint i = 0; i < 3; i++) {
+    const SbCadBody *body = cad->bodies->pdata[i];
+    g_assert_cmpstr(body->why, ==, NULL);
+    volume += body->solid.volume;
+  }
+  g_assert_cmpfloat_with_epsilon(volume / (2 * G_PI * G_PI * (5 + 15 + 25) * 1e-9), 1, 1e-4);
+}
+
+static void test_hostile_blocks(void) {
+  static const char *const nested[] = {"A", "B"};
+  const SbCadChoices none = {0};
+  for (int kind = 0; kind < 2; kind++) {
+    g_autoptr(GError) error = NULL;
+    g_autoptr(GString) dxf = begin_blocks();
+    if (kind == 0) { // two blocks that hold each other
+      for (int i = 0; i < 2; i++) {
+        begin_block(dxf, nested[i], 0, 0);
+        put_insert(dxf, nested[1 - i], 0, 0, 1, 1, 0);
+        drawing_put(dxf, 0, "ENDBLK");
+      }
+    } else { // each holds thirty of the next
+      for (int i = 0; i < 7; i++) {
+        g_autofree char *name = g_strdup_printf("%c", 'A' + i);
+        g_autofree char *next = g_strdup_printf("%c", 'B' + i);
+        begin_block(dxf, name, 0, 0);
+        for (int k = 0; k < 30; k++) {
+          put_insert(dxf, next, 0, 0, 1, 1, 0);
+        }
+        drawing_put(dxf, 0, "ENDBLK");
+      }
+      begin_block(dxf, "H", 0, 0);
+      drawing_put(dxf, 0, "ENDBLK");
+    }
+    begin_entities(dxf);
+    put_insert(dxf, "A", 0, 0, 1, 1, 0);
+    drawing_end(dxf);
+    SbCad *cad = sb_cad_parse_dxf(dxf->str, dxf->len, "a.dxf", &none, &error);
+    g_assert_null(cad);
+    g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
+    g_assert_nonnull(
+        strstr(error->message, kind == 0 ? "nested more than 8 deep" : "blocks place more"));
+  }
+}
+
+// ---- Habits of other programs ----
+
+// The square 2 <= x <= 4, 1 <= y <= 3 as four lines, of which `first` is written first.
+static void put_square(GString *dxf, const char *layer, int first) {
+  static const double corner[4][2] = {{2, 1}, {4, 1}, {4, 3}, {2, 3}};
+  for (int i = 0; i < 4; i++) {
+    const double *p = corner[(first + i) % 4], *q = corner[(first + i + 1) % 4];
+    drawing_line(dxf, layer, p[0], p[1], q[0], q[1]);
+  }
+}
+
+static void check_square(const SbCad *cad, guint warnings) {
+  g_assert_cmpuint(cad->bodies->len, ==, 1);
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpstr(body->why, ==, NULL);
+  g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 8 * 2), 1, 1e-9);
+  g_assert_cmpuint(cad->warnings->len, ==, warnings);
+}
+
+// Only entities in object coordinates are mirrored by an extrusion towards -z; the minor axis of an
+// ellipse is reversed by it.
+static void test_coordinates(void) {
+  const SbCadChoices none = {0};
+  // Type and flags, and the middle of the body where it is drawn with its own middle at x = 5 mm.
+  static const struct {
+    const char *type;
+    double flags, middle;
+  } cases[] = {{"ELLIPSE", 0, 5}, {"CIRCLE", 0, -5},   {"LWPOLYLINE", 1, -5},
+               {"LINE", 0, 5},    {"POLYLINE", 1, -5}, {"POLYLINE", 1 | 8, 5}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    static const double corner[5][2] = {{4, 2}, {6, 2}, {6, 4}, {4, 4}, {4, 2}};
+    const bool line = strcmp(cases[i].type, "LINE") == 0;
+    const bool poly = strcmp(cases[i].type, "POLYLINE") == 0;
+    const bool light = strcmp(cases[i].type, "LWPOLYLINE") == 0;
+    g_autoptr(GString) dxf = drawing_begin(4);
+    for (int k = 0; k < (line ? 4 : 1); k++) {
+      drawing_put(dxf, 0, "%s", cases[i].type);
+      drawing_put(dxf, 70, "%g", cases[i].flags);
+      drawing_put(dxf, 230, "-1");
+      if (line) {
+        drawing_put(dxf, 10, "%g", corner[k][0]);
+        drawing_put(dxf, 20, "%g", corner[k][1]);
+        drawing_put(dxf, 11, "%g", corner[k + 1][0]);
+        drawing_put(dxf, 21, "%g", corner[k + 1][1]);
+      } else if (!poly && !light) {
+        drawing_put(dxf, 10, "5");
+        drawing_put(dxf, 20, "3");
+        drawing_put(dxf, 40, "%g", i == 0 ? 0.5 : 1);
+        drawing_put(dxf, 11, "2");
+        drawing_put(dxf, 21, "0");
+        drawing_put(dxf, 41, "0");
+        drawing_put(dxf, 42, "6.283185307179586");
+      } else {
+        drawing_put(dxf, 30, "0");
+      }
+      for (int c = 0; (poly || light) && c < 4; c++) {
+        if (poly) {
+          drawing_put(dxf, 0, "VERTEX");
+          drawing_put(dxf, 70, "32");
+        }
+        drawing_put(dxf, 10, "%g", corner[c][0]);
+        drawing_put(dxf, 20, "%g", corner[c][1]);
+      }
+      if (poly) {
+        drawing_put(dxf, 0, "SEQEND");
+      }
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpfloat_with_epsilon(body->solid.centre[0], 1e-3 * cases[i].middle, 1e-10);
+    const double area = i == 0 ? 2 * M_PI : i == 1 ? M_PI : 4; // about r = 3 mm, by Pappus
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (6 * M_PI * area), 1, 1e-4);
+  }
+  // Half an ellipse from its major axis on, anticlockwise about the extrusion: below the centre.
+  for (int up = -1; up <= 1; up += 2) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    drawing_put(dxf, 0, "ELLIPSE");
+    drawing_put(dxf, 10, "5");
+    drawing_put(dxf, 20, "3");
+    drawing_put(dxf, 11, "2");
+    drawing_put(dxf, 230, "%d", up);
+    drawing_put(dxf, 40, "0.5");
+    drawing_put(dxf, 42, "3.141592653589793");
+    drawing_line(dxf, "0", 3, 3, 7, 3);
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    const double middle = 3 + up * 4 / (3 * M_PI);
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (2 * M_PI * middle * M_PI), 1, 1e-4);
+  }
+}
+
+// A spline is divided at its knots, so corners are exact, also where a span has no length; what is
+// not in model space, not seen or has only fit points is named.
+static void test_spline_corners(void) {
+  const SbCadChoices none = {0};
+  static const double corner[6][2] = {{2, 1}, {4, 1}, {4, 1}, {4, 3}, {2, 3}, {2, 1}};
+  for (int degree = 1; degree <= 3; degree++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    drawing_put(dxf, 0, "SPLINE");
+    drawing_put(dxf, 71, "%d", degree);
+    for (int k = 0; k < 6; k++) {
+      for (int i = 0; i < degree + (k == 0 || k == 5); i++) {
+        drawing_put(dxf, 40, "%g", 0.7 * k * k); // of unequal length
+      }
+    }
+    for (int i = 0; i <= 5 * degree; i++) {
+      const double *p = corner[i / degree], *q = corner[MIN(i / degree + 1, 5)];
+      const double t = i % degree / (double)degree;
+      drawing_put(dxf, 10, "%.15g", p[0] + t * (q[0] - p[0]));
+      drawing_put(dxf, 20, "%.15g", p[1] + t * (q[1] - p[1]));
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+    check_square(cad, 0);
+  }
+}
+
+static void test_left_out(void) {
+  const SbCadChoices none = {0};
+  g_autoptr(GString) dxf = drawing_begin(4);
+  const gsize at = (gsize)(strstr(dxf->str, "  0\r\nSECTION\r\n  2\r\nENTITIES") - dxf->str);
+  g_autoptr(GString) tables = g_string_new(NULL);
+  drawing_put(tables, 0, "SECTION");
+  drawing_put(tables, 2, "TABLES");
+  for (int i = 0; i < 2; i++) {
+    drawing_put(tables, 0, "LAYER");
+    drawing_put(tables, 2, "%s", i == 0 ? "Sketch" : "FRAME");
+    drawing_put(tables, i == 0 ? 62 : 70, "%d", i == 0 ? -7 : 1);
+  }
+  drawing_put(tables, 0, "ENDSEC");
+  g_string_insert(dxf, (gssize)at, tables->str);
+  put_square(dxf, "part", 0);
+  for (int i = 0; i < 4; i++) {
+    drawing_line(dxf, i == 0 ? "SKETCH" : i == 1 ? "frame" : "part", 0, 0, 9, 9);
+    drawing_put(dxf, i == 2 ? 67 : 60, "%d", i >= 2);
+  }
+  drawing_put(dxf, 0, "SPLINE");
+  drawing_put(dxf, 8, "part");
+  drawing_put(dxf, 71, "3");
+  drawing_put(dxf, 11, "1");
+  drawing_put(dxf, 21, "1");
+  drawing_put(dxf, 0, "CIRCLE");
+  drawing_put(dxf, 40, "1");
+  drawing_put(dxf, 210, "1");
+  drawing_put(dxf, 230, "0");
+  drawing_end(dxf);
+  g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+  check_square(cad, 1);
+  g_assert_cmpstr(cad->warnings->pdata[0], ==,
+                  "left out: 1 CIRCLE out of the drawing's plane, 1 LINE in paper space, 1 LINE on "
+                  "layer 'SKETCH', which is off, 1 LINE on layer 'frame', which is frozen, 1 LINE "
+                  "that is invisible, 1 SPLINE with fit points only");
+}
+
+// Lines drawn twice, also in part and the other way round, lines of no length, gaps, and circles
+// that touch the axis.
+static void test_untidy(void) {
+  const SbCadChoices none = {0}, wide = {.join = 0.05e-3};
+  for (int kind = 0; kind < 4; kind++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    if (kind == 3) {
+      drawing_line(dxf, "0", 2, 1, 4, 1);
+      drawing_line(dxf, "0", 4, 1.04, 4, 3);
+      drawing_line(dxf, "0", 3.97, 3, 2, 3);
+      drawing_line(dxf, "0", 2, 3, 2, 1);
+    } else {
+      put_square(dxf, "0", kind);
+    }
+    if (kind == 0) {
+      drawing_line(dxf, "0", 4, 3, 4, 1);
+      drawing_line(dxf, "0", 4, 3, 4, 3);
+    } else if (kind == 1) { // the part of one side, and one that is longer than a side's half
+      drawing_line(dxf, "0", 2, 2.5, 2, 1);
+      drawing_line(dxf, "0", 4, 2, 4, 3);
+      drawing_line(dxf, "0", 4, 2.5, 4, 1);
+    }
+    drawing_end(dxf);
+    GError *error = NULL;
+    if (kind == 3) {
+      g_assert_null(sb_cad_parse_dxf(dxf->str, dxf->len, "a.dxf", &none, &error));
+      g_assert_nonnull(strstr(error->message, "ends are up to 0.04 mm apart"));
+      g_error_free(error);
+      g_autoptr(SbCad) cad = drawing_parse(dxf, &wide);
+      g_assert_cmpuint(cad->bodies->len, ==, 1);
+      const SbCadBody *body = cad->bodies->pdata[0];
+      g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 16), 1, 0.03);
+    } else {
+      g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+      check_square(cad, kind < 2);
+    }
+  }
+  for (int twice = 0; twice < 2; twice++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    for (int i = 0; i <= twice; i++) {
+      drawing_put(dxf, 0, i == 0 ? "CIRCLE" : "ARC");
+      drawing_put(dxf, 10, "5");
+      drawing_put(dxf, 20, "3");
+      drawing_put(dxf, 40, "3");
+      drawing_put(dxf, 50, "30");
+      drawing_put(dxf, 51, "300");
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpstr(body->why, ==, NULL);
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (2 * M_PI * 3 * M_PI * 9), 1, 1e-6);
+  }
+}
+
+// All values of $INSUNITS, and a text whose lines end
+// in a carriage return alone.
+static void test_units(void) {
+  static const double unit[] = {25.4e-3,      0.3048,        1609.344,
+                                1e-3,         1e-2,          1,
+                                1e3,          25.4e-9,       25.4e-6,
+                                0.9144,       1e-10,         1e-9,
+                                1e-6,         0.1,           10,
+                                100,          1e9,           1.495979e11,
+                                9.46073e15,   3.085678e16,   1200 / 3937.0,
+                                100 / 3937.0, 3600 / 3937.0, 5280 * 1200 / 3937.0};
+  const SbCadChoices none = {0};
+  for (size_t i = 0; i < G_N_ELEMENTS(unit); i++) {
+    g_autoptr(GString) dxf = drawing_begin((int)i + 1);
+    const double size = 1e-3 / unit[i];
+    for (int k = 0; k < 4; k++) {
+      static const double corner[5][2] = {{0, 1}, {2, 1}, {2, 3}, {0, 3}, {0, 1}};
+      drawing_line(dxf, "0", size * corner[k][0], size * corner[k][1], size * corner[k + 1][0],
+                   size * corner[k + 1][1]);
+    }
+    drawing_end(dxf);
+    if (i % 2 == 0) {
+      g_string_replace(dxf, "\n", "", 0);
+    }
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_test_message("%s", cad->unit);
+    // udunits-2 rounds astronomical units to six or seven digits, and has no inch of the US survey.
+    const double rounded = i >= 17 && i < 22 ? 7e-6 : 1e-9;
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 8 * 2), 1, rounded);
+  }
+}
+
+int main(int argc, char **argv) {
+  g_test_init(&argc, &argv, NULL);
+  g_test_add_func("/cad/blocks", test_blocks);
+  g_test_add_func("/cad/blocks/stretched", test_stretched_block);
+  g_test_add_func("/cad/blocks/hostile", test_hostile_blocks);
+  g_test_add_func("/cad/coordinates", test_coordinates);
+  g_test_add_func("/cad/spline-corners", test_spline_corners);
+  g_test_add_func("/cad/left-out", test_left_out);
+  g_test_add_func("/cad/untidy", test_untidy);
+  g_test_add_func("/cad/units", test_units);
+  return g_test_run();
+}
