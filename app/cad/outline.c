@@ -460,9 +460,8 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
     best = best == NULL || one->revolved.volume > best->revolved.volume ? one : best;
   }
   if (best == NULL || best->profile->len == 0) {
-    if (body->why == NULL) {
-      body->why = g_strdup(best != NULL && best->why != NULL ? best->why : "no outline closes");
-    }
+    const char *why = best != NULL && best->why != NULL ? best->why : "no outline closes";
+    body->why = body->why != NULL ? body->why : g_strdup(why);
     return;
   }
   if (count > 1) {

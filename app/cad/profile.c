@@ -43,9 +43,8 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
   const guint count = points->len;
   *closed = count > 1 && point[0].x == point[count - 1].x && point[0].r == point[count - 1].r;
   g_array_set_size(points, count - (*closed ? 1 : 0));
-  if (good && points->len < 2) {
-    good = sb_app_error_input(error, "has %u points, not two or more", points->len);
-  }
+  good = good && (points->len >= 2 ||
+                  sb_app_error_input(error, "has %u points, not two or more", points->len));
   return good ? g_steal_pointer(&points) : NULL;
 }
 

@@ -89,8 +89,7 @@ static double weld_tolerance(const double *corners, gsize count) {
 // dropped. Vertices are further apart than the tolerance, so that a cell of four holds few, and the
 // time grows with the count alone.
 static void weld(SbStl *out, const double *corners, gsize triangles, double tolerance) {
-  gsize count = 3 * triangles;
-  gsize buckets = 2;
+  gsize count = 3 * triangles, buckets = 2;
   while (buckets < 2 * count) {
     buckets *= 2;
   }
