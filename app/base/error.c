@@ -5,6 +5,24 @@
 
 #include <string.h>
 
+typedef SbChoice SbAppErrorPrivate;
+
+static void sb_app_error_private_init(SbAppErrorPrivate *choice) {
+  *choice = (SbAppErrorPrivate){0};
+}
+
+static void sb_app_error_private_copy(const SbAppErrorPrivate *from, SbAppErrorPrivate *to) {
+  sb_choice_copy(to, from);
+}
+
+static void sb_app_error_private_clear(SbAppErrorPrivate *choice) {
+  sb_choice_clear(choice);
+}
+
+// clang-format off
+G_DEFINE_EXTENDED_ERROR(SbAppError, sb_app_error)
+// clang-format on
+
 bool sb_app_error_input(GError **error, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -15,10 +33,27 @@ bool sb_app_error_input(GError **error, const char *format, ...) {
   return false;
 }
 
+bool sb_app_error_choose(GError **error, const char *key, const char *values, const char *format,
+                         ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *problem = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  const char *how = values == NULL || *values != '\0' ? "specify it with" : "omit";
+  g_autofree char *remedy = key != NULL ? g_strdup_printf(": %s --%s", how, key) : g_strdup("");
+  GError *own = NULL;
+  sb_app_error_input(&own, "%s%s", problem, remedy);
+  sb_choice_init(sb_app_error_get_private(own), key, values, strlen(remedy));
+  g_propagate_error(error, own);
+  return false;
+}
+
+const SbChoice *sb_app_error_choice(const GError *error) {
+  const SbChoice *choice = error->domain == SB_APP_ERROR ? sb_app_error_get_private(error) : NULL;
+  return choice != NULL && choice->key != NULL ? choice : NULL;
+}
+
 void sb_app_error_prefix(GError **error, const char *name) {
   g_autofree char *shown = sb_printable(name, strlen(name));
   g_prefix_error(error, "%s: ", shown);
 }
-
-// clang-format off
-G_DEFINE_QUARK(sb-app-error-quark, sb_app_error)

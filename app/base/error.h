@@ -1,7 +1,8 @@
 // The error domain of app.
 #pragma once
 
-#include <glib.h>
+#include "app/base/choice.h"
+
 #include <stdbool.h>
 
 // Codes of errors; each has its exit code.
@@ -21,6 +22,15 @@ GQuark sb_app_error_quark(void);
 // Sets SB_APP_ERROR_INPUT with a formatted sentence that can contain text of an untrusted file; it
 // is made printable (sb_printable()). Always returns false, the result of a reader that fails.
 bool sb_app_error_input(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+
+// As sb_app_error_input(), for a refusal that the option `key` ("unit") resolves. The sentence is
+// followed by the remedy ": specify it with --unit", or ": omit --unit" if the only value is "".
+// `values` has the plausible values, one a line; NULL: any value. `key` NULL: no option.
+bool sb_app_error_choose(GError **error, const char *key, const char *values, const char *format,
+                         ...) G_GNUC_PRINTF(4, 5);
+
+// Returns the choice that resolves an error; NULL: none. Borrowed from the error.
+const SbChoice *sb_app_error_choice(const GError *error);
 
 // Puts "NAME: " before the message of an error, unless `error` or *error is NULL. `name` is made
 // printable.

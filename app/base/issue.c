@@ -11,6 +11,7 @@ static void issue_free(gpointer data) {
   g_free(issue->key);
   g_free(issue->text);
   g_free(issue->allowed);
+  sb_choice_clear(&issue->choice);
   g_free(issue);
 }
 
@@ -49,6 +50,31 @@ bool sb_issues_add(GPtrArray *issues, const char *file, int line, const char *ke
   return false;
 }
 
+bool sb_issues_add_choice(GPtrArray *issues, const char *file, int line, const char *key,
+                          const char *values, bool remedy, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *problem = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  int group = 0;
+  const char *name = sb_issue_key(&(SbIssue){.key = (char *)key}, &group);
+  SbChoice choice;
+  sb_choice_init(&choice, name, values, 0);
+  g_autofree char *all = g_strjoinv(", ", choice.value);
+  g_autofree char *how = remedy && choice.value[0] != NULL
+                             ? g_strdup_printf(": specify it, as in %s = %s", name, choice.value[0])
+                             : g_strdup("");
+  choice.remedy = strlen(how);
+  const guint before = issues->len;
+  sb_issues_add(issues, file, line, key, remedy ? NULL : all, "%s%s", problem, how);
+  if (issues->len > before && issues->len <= SB_ISSUES_MAX) {
+    ((SbIssue *)issues->pdata[before])->choice = choice;
+  } else {
+    sb_choice_clear(&choice);
+  }
+  return false;
+}
+
 void sb_note_add(GPtrArray *notes, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
@@ -61,7 +87,11 @@ int sb_note_compare(gconstpointer a, gconstpointer b) {
 }
 
 void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue) {
+  const guint before = issues->len;
   sb_issues_add(issues, issue->file, issue->line, issue->key, issue->allowed, "%s", issue->text);
+  if (issue->choice.key != NULL && issues->len > before && issues->len <= SB_ISSUES_MAX) {
+    sb_choice_copy(&((SbIssue *)issues->pdata[before])->choice, &issue->choice);
+  }
 }
 
 const char *sb_issue_key(const SbIssue *issue, int *group_length) {
@@ -101,6 +131,15 @@ char *sb_issue_line(const SbIssue *issue) {
     g_string_append_printf(line, " (allowed %s)", issue->allowed);
   }
   return g_string_free(line, FALSE);
+}
+
+char *sb_issue_problem(const SbIssue *issue) {
+  SbIssue plain = *issue;
+  plain.text = sb_choice_problem(&issue->choice, issue->text);
+  plain.allowed = issue->choice.key == NULL ? issue->allowed : NULL;
+  char *line = sb_issue_line(&plain);
+  g_free(plain.text);
+  return line;
 }
 
 char *sb_printable(const char *text, size_t length) {

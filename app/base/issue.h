@@ -1,7 +1,8 @@
 // One problem of an input: its place, and what would be allowed.
 #pragma once
 
-#include <glib.h>
+#include "app/base/choice.h"
+
 #include <stdbool.h>
 
 // A problem. Strings are owned by the issue.
@@ -11,6 +12,9 @@ typedef struct {
   char *key;     // catalogue key or "sealbench.kind"; NULL: none
   char *text;    // the problem, a part of a sentence without full stop, printable
   char *allowed; // allowed range, "1.2 to 2.2 mm"; NULL: none
+  // Which value of `key` resolves the problem. Its key is the name of `key` without the group;
+  // NULL: none.
+  SbChoice choice;
 } SbIssue;
 
 // Returns an empty list of SbIssue that frees its elements.
@@ -25,6 +29,13 @@ enum { SB_ISSUES_MAX = 100 };
 // result of a reader that fails.
 bool sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
+
+// As sb_issues_add(), for a problem that one of the values of `key` resolves: `values`, one a
+// line. With `remedy`, the text ends with ": specify it, as in KEY = VALUE" with the first value;
+// without, the values are the allowed range.
+bool sb_issues_add_choice(GPtrArray *issues, const char *file, int line, const char *key,
+                          const char *values, bool remedy, const char *format, ...)
+    G_GNUC_PRINTF(7, 8);
 
 // Appends a formatted sentence to a list of char *.
 void sb_note_add(GPtrArray *notes, const char *format, ...) G_GNUC_PRINTF(2, 3);
@@ -43,6 +54,9 @@ const char *sb_issue_key(const SbIssue *issue, int *group_length);
 // Returns the issue as a line, "piston.valve: [gland] radial_space: 9 m is out of range (allowed
 // 0.1 to 20 mm)".
 char *sb_issue_line(const SbIssue *issue);
+
+// Returns sb_issue_line() without the remedy and the values that issue->choice has.
+char *sb_issue_problem(const SbIssue *issue);
 
 // Returns the `length` bytes of a text, terminated by 0, with control characters and invalid UTF-8
 // replaced by "?"; of a text of more than 8 KiB only its start and end.

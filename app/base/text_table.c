@@ -219,11 +219,12 @@ static bool accept(const SbTextTable *table, const Sample *sample, const Fit *be
       double a, b;
       if (sb_text_table_number(&a, &cell[k], &best->dialect, NULL) &&
           sb_text_table_number(&b, &cell[k], &rival->dialect, NULL) && a != b) {
-        return sb_issues_add(issues, table->file->shown, 0, "decimal", "point, comma",
-                             "is ambiguous: \"%.*s\" is %g with a decimal %s, %g with a decimal %s",
-                             (int)MIN(cell[k].length, 40), cell[k].text, a,
-                             best->dialect.decimal == '.' ? "point" : "comma", b,
-                             rival->dialect.decimal == '.' ? "point" : "comma");
+        return sb_issues_add_choice(
+            issues, table->file->shown, 0, "decimal", "point\ncomma", false,
+            "is ambiguous: \"%.*s\" is %g with a decimal %s, %g with a decimal %s",
+            (int)MIN(cell[k].length, 40), cell[k].text, a,
+            best->dialect.decimal == '.' ? "point" : "comma", b,
+            rival->dialect.decimal == '.' ? "point" : "comma");
       }
     }
   }
@@ -340,8 +341,8 @@ static bool accept_commas(const SbTextTable *table, const Sample *sample, const 
       sb_text_table_header_cells(table, sample->line->pdata[table->header_lines - 1]);
   const size_t names = g_strv_length(cells);
   return names < 2 || fit->shape.cells != 2 * names ||
-         sb_issues_add(
-             issues, table->file->shown, (int)table->header_lines + 1, "separator", NULL,
+         sb_issues_add_choice(
+             issues, table->file->shown, (int)table->header_lines + 1, "separator", "comma", false,
              "is ambiguous: %zu cells a row separated by commas, or %zu numbers with "
              "decimal commas under the %zu names of the header: export it with another separator",
              fit->shape.cells, names, names);

@@ -362,8 +362,8 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
 static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError **error) {
   if (!read_file(drawing, error) ||
       (drawing->unit == NULL &&
-       !sb_app_error_input(error, "states no unit ($INSUNITS)%s",
-                           choices->section ? "" : ": specify it with --unit")) ||
+       !sb_app_error_choose(error, choices->section ? NULL : "unit", "mm\ncm\ninch",
+                            "states no unit ($INSUNITS)")) ||
       !sb_unit_scale(&drawing->scale, drawing->unit, "m", "mm", error)) {
     return NULL;
   }
@@ -400,18 +400,16 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
       .unit = g_strdup(choices->unit),
   };
-  GError *problem = NULL;
   SbCad *cad = NULL;
   if (length >= 22 && memcmp(text, "AutoCAD Binary DXF", 18) == 0) {
-    sb_app_error_input(&problem, "is a binary DXF: save it as text (ASCII)");
+    sb_app_error_input(error, "is a binary DXF: save it as text (ASCII)");
   } else if (choices->axis != NULL && choices->axis[2] != 0) {
-    sb_app_error_input(&problem, "a DXF has the axes x and y, not z");
+    sb_app_error_choose(error, "axis", "x\ny", "a DXF has the axes x and y, not z");
   } else {
-    cad = of_drawing(&drawing, choices, &problem);
+    cad = of_drawing(&drawing, choices, error);
   }
-  if (problem != NULL) {
-    sb_app_error_prefix(&problem, name);
-    g_propagate_error(error, problem);
+  if (cad == NULL) {
+    sb_app_error_prefix(error, name);
   }
   block_free(drawing.model);
   g_hash_table_unref(drawing.blocks);

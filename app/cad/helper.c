@@ -484,8 +484,7 @@ int main(int argc, char **argv) {
     direction[k] /= length;
   }
   gsl_set_error_handler_off();
-  check(!find_axis(&axis, bodies, 2 * solids, direction, through),
-        "it has no face of revolution, so no axis: specify it with --axis and --through");
+  check(!find_axis(&axis, bodies, 2 * solids, direction, through), "axis"); // step.c has the text
   const double *p = axis.point, *d = axis.direction;
   print_numbers("axis", (double[]){SCALE * p[0], SCALE * p[1], SCALE * p[2], d[0], d[1], d[2]}, 6);
   place(bodies, 2 * solids, &axis, strtod(argv[2], NULL));

@@ -33,21 +33,21 @@ static const char *guess_unit(double side, GError **error) {
   static const char *const units[] = {"mm", "cm", "inch", "m", "um"};
   const char *found = NULL;
   guint count = 0;
-  g_autoptr(GString) all = g_string_new(NULL);
+  g_autoptr(GString) all = g_string_new(NULL), values = g_string_new(NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(units); i++) {
     double scale;
     if (sb_unit_scale(&scale, units[i], "m", "mm", NULL) && side * scale >= SIDE_LEAST &&
         side * scale <= SIDE_MOST) {
-      g_string_append_printf(all, "%s%.3g mm in %s", count++ > 0 ? ", " : "", 1e3 * side * scale,
+      g_string_append_printf(all, "%s%.3g mm in %s", count > 0 ? ", " : "", 1e3 * side * scale,
                              units[i]);
+      g_string_append_printf(values, "%s%s", count++ > 0 ? "\n" : "", units[i]);
       found = units[i];
     }
   }
   if (count != 1) {
-    sb_app_error_input(
-        error,
-        "an STL file states no unit, and its longest side of %.4g is %s: specify it with --unit",
-        side, count > 0 ? all->str : "that of a valve's part in none");
+    sb_app_error_choose(error, "unit", count > 0 ? values->str : NULL,
+                        "an STL file states no unit, and its longest side of %.4g is %s", side,
+                        count > 0 ? all->str : "that of a valve's part in none");
   }
   return count == 1 ? found : NULL;
 }

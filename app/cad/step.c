@@ -95,6 +95,9 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
     double n[10];
+    if (strcmp(line, "error axis") == 0) {
+      return sb_app_error_choose(error, "axis", "x\ny\nz", "has no face of revolution, so no axis");
+    }
     if (g_str_has_prefix(line, "error ")) {
       return sb_app_error_input(error, "%s", line + 6);
     }

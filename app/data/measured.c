@@ -10,26 +10,25 @@
 
 #define SPEED_MAX 10.0 // of a test machine [m/s]
 
+const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
+
 static const struct {
-  const char *name, *si;
+  const char *si;
   double most;       // either way, SI
   const char *words; // parts of a column's name in small letters; those in quotes are words of it
   const char *alias; // units that mean another one in this column: "g gf" is gram-force
+  const char *units; // usual units, one a line
 } channels[SB_CHANNELS] = {
-    {"time", "s", 1e9, "time|zeit|temps|tiempo|tempo|'t'|seconds|'sec'|時間|时间", ""},
-    {"displacement", "m", 0.2,
+    {"s", 1e9, "time|zeit|temps|tiempo|tempo|'t'|seconds|'sec'|時間|时间", "", "s\nms\nmin"},
+    {"m", 0.2,
      "displ|'disp'|weg|position|extension|travel|stroke|'hub'|placement|course|crosshead|travers|"
      "deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|stauchung|"
      "verformung|変位|位移|'s'|'x'",
-     ""},
-    {"force", "N", 1e5,
+     "", "mm\nµm\nin"},
+    {"N", 1e5,
      "force|kraft|'load'|'last'|effort|'charge'|carga|carico|fuerza|forza|荷重|試験力|'f'",
-     "g gf kg kgf lb lbf oz ozf"},
+     "g gf kg kgf lb lbf oz ozf", "N\nkN\ngf\nkgf\nlbf"},
 };
-
-const char *sb_channel_name(SbChannel channel) {
-  return channels[channel].name;
-}
 
 void sb_measured_free(SbMeasured *measured) {
   if (measured == NULL) {
@@ -99,7 +98,7 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
         continue;
       }
       int channel = 0;
-      while (channel < SB_CHANNELS && strcmp(word, channels[channel].name) != 0) {
+      while (channel < SB_CHANNELS && strcmp(word, sb_channel_names[channel]) != 0) {
         channel++;
       }
       if (channel == SB_CHANNELS && strcmp(word, "-") != 0) {
@@ -116,8 +115,8 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
 }
 
 // How well a column fits a channel, best first: by its name with a unit of the kind, by its name
-// without a unit, by its name alone, by its unit where no word of its name is known.
-enum { FIT_NAME_UNIT, FIT_NAME, FIT_NAME_OTHER, FIT_UNIT, FIT_NONE };
+// without a unit, by its name alone, by its unit where no word of its name is known, as a number.
+enum { FIT_NAME_UNIT, FIT_NAME, FIT_NAME_OTHER, FIT_UNIT, FIT_NUMBER, FIT_NONE };
 
 static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
   const bool clock = column->clock && channel == SB_CHANNEL_TIME;
@@ -129,23 +128,25 @@ static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
     known |= name_fits(column->name, (SbChannel)c);
   }
   return !column->numeric && !clock          ? FIT_NONE
-         : !name_fits(column->name, channel) ? (kind && foreign && !known ? FIT_UNIT : FIT_NONE)
+         : !name_fits(column->name, channel) ? (kind && foreign && !known ? FIT_UNIT : FIT_NUMBER)
          : kind                              ? FIT_NAME_UNIT
          : *column->unit == '\0'             ? FIT_NAME
                                              : FIT_NAME_OTHER;
 }
 
-// The columns that fit a channel best, in their order. Returns their number.
-static size_t find_columns(size_t *column, const SbTextTable *table, SbChannel channel) {
-  size_t count = 0;
-  for (int fit = FIT_NAME_UNIT; fit < FIT_NONE && count == 0; fit++) {
+// Sets of columns have a bit for each column.
+#define BIT(column)    (G_GUINT64_CONSTANT(1) << (column))
+#define FIRST(columns) ((size_t)__builtin_ctzll(columns))
+
+// Returns the columns that fit a channel best, at least as well as `last`.
+static guint64 find_columns(const SbTextTable *table, SbChannel channel, int last) {
+  guint64 columns = 0;
+  for (int fit = FIT_NAME_UNIT; fit <= last && columns == 0; fit++) {
     for (size_t i = 0; i < table->columns; i++) {
-      if (fit_of(&table->column[i], channel) == fit) {
-        column[count++] = i;
-      }
+      columns |= fit_of(&table->column[i], channel) == fit ? BIT(i) : 0;
     }
   }
-  return count;
+  return columns;
 }
 
 // Whether two names are equal but for the number of a specimen.
@@ -164,52 +165,41 @@ static bool same_name(const char *a, const char *b) {
 
 // Whether columns of displacement and force are those of several specimens side by side: pairs in
 // one order with the same names.
-static bool are_specimens(const SbTextTable *table, const size_t *place, const size_t *force,
-                          size_t count) {
-  const size_t *low = place[0] < force[0] ? place : force, *high = low == place ? force : place;
-  for (size_t i = 0; i < count; i++) {
-    if (low[i] > high[i] || (i > 0 && low[i] <= high[i - 1]) ||
-        !same_name(table->column[low[0]].name, table->column[low[i]].name) ||
-        !same_name(table->column[high[0]].name, table->column[high[i]].name)) {
-      return false;
-    }
+static bool are_specimens(const SbTextTable *table, guint64 place, guint64 force) {
+  const bool before = FIRST(place) < FIRST(force);
+  guint64 low = before ? place : force, high = before ? force : place;
+  const SbTextTableColumn *left = &table->column[FIRST(low)], *right = &table->column[FIRST(high)];
+  bool pairs = __builtin_popcountll(low) == __builtin_popcountll(high);
+  for (size_t last = 0; pairs && low != 0; low &= low - 1, high &= high - 1) {
+    pairs = FIRST(low) >= last && FIRST(low) < FIRST(high) &&
+            same_name(left->name, table->column[FIRST(low)].name) &&
+            same_name(right->name, table->column[FIRST(high)].name);
+    last = FIRST(high);
   }
-  return true;
+  return pairs;
 }
 
-// The column of each channel; false with an issue where there are two that are not of specimens.
-static bool find_channels(SbMeasured *m, const SbTextTable *table, const SbData *data,
-                          GPtrArray *issues) {
-  size_t column[SB_CHANNELS][SB_TEXT_TABLE_COLUMNS_MAX], count[SB_CHANNELS];
+// The column of each channel; 0 where several may be it, but for those of specimens.
+static void find_channels(SbMeasured *m, const SbTextTable *table) {
+  guint64 fits[SB_CHANNELS];
   for (int c = 0; c < SB_CHANNELS; c++) {
-    count[c] = find_columns(column[c], table, (SbChannel)c);
-    m->column[c].at = count[c] > 0 ? column[c][0] + 1 : 0;
-    m->column[c].how = count[c] > 0 ? SB_HOW_FOUND : SB_HOW_ASSUMED;
+    fits[c] = find_columns(table, (SbChannel)c, FIT_UNIT);
+    m->column[c].how = fits[c] != 0 ? SB_HOW_FOUND : SB_HOW_ASSUMED;
   }
-  const size_t pairs = count[SB_CHANNEL_DISPLACEMENT];
-  if (pairs > 1 && pairs == count[SB_CHANNEL_FORCE] &&
-      are_specimens(table, column[SB_CHANNEL_DISPLACEMENT], column[SB_CHANNEL_FORCE], pairs)) {
-    m->specimens = pairs;
-    return true;
+  const guint64 place = fits[SB_CHANNEL_DISPLACEMENT], force = fits[SB_CHANNEL_FORCE];
+  const int pairs = __builtin_popcountll(place);
+  m->specimens = pairs > 1 && force != 0 && are_specimens(table, place, force) ? (size_t)pairs : 0;
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    const bool one = (fits[c] & (fits[c] - 1)) == 0 || m->specimens > 0 || c == SB_CHANNEL_TIME;
+    m->column[c].at = one && fits[c] != 0 ? FIRST(fits[c]) + 1 : 0;
   }
-  for (int c = SB_CHANNEL_DISPLACEMENT; c < SB_CHANNELS; c++) {
-    if (count[c] > 1) {
-      return sb_data_add_issue(
-          data, SB_DATA_COLUMNS, NULL, issues,
-          "column %zu \"%s\" and column %zu \"%s\" may both be the %s: specify it, "
-          "as in columns = displacement, force, -",
-          column[c][0] + 1, table->column[column[c][0]].name, column[c][1] + 1,
-          table->column[column[c][1]].name, channels[c].name);
-    }
-  }
-  return true;
 }
 
 // Whether time is to make the displacement, at which speed; false with an issue.
 static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *data, double speed,
                          GPtrArray *issues) {
   const char *said = data->text[SB_DATA_SPEED];
-  const bool column = m->column[SB_CHANNEL_DISPLACEMENT].at > 0;
+  const bool column = m->column[SB_CHANNEL_DISPLACEMENT].how != SB_HOW_ASSUMED;
   const bool timed = m->column[SB_CHANNEL_TIME].at > 0;
   if (said != NULL && (!sb_quantity_parse(&speed, said, "m/s", "mm/min", NULL) ||
                        !(speed > 0 && speed <= SPEED_MAX))) {
@@ -234,27 +224,42 @@ static bool settle_speed(SbMeasured *m, const SbTextTable *table, const SbData *
   return true;
 }
 
-// Refuses a file without a column for `channel`, with the names of its columns.
+// Refuses a file in which no column or several ones are known as `channel`.
 static bool miss_column(const SbMeasured *m, const SbTextTable *table, const SbData *data,
                         int channel, GPtrArray *issues) {
-  const bool timed = channel == SB_CHANNEL_DISPLACEMENT && m->column[SB_CHANNEL_TIME].at > 0;
+  const bool several = m->column[channel].how == SB_HOW_FOUND;
+  guint64 fits = find_columns(table, (SbChannel)channel, several ? FIT_UNIT : FIT_NUMBER);
   g_autoptr(GString) list = g_string_new(NULL);
   for (size_t i = 0; i < table->columns && i < 8; i++) {
     g_string_append_printf(list, "%s\"%s\"", i > 0 ? ", " : "", table->column[i].name);
   }
-  return sb_data_add_issue(
-      data, SB_DATA_COLUMNS, NULL, issues,
-      "no column of the %zu (%s) is known as the %s: name them, as in "
-      "columns = time, displacement, force%s",
-      table->columns, list->str, channels[channel].name,
-      timed ? ", or specify the constant speed of the machine, as in speed = 20 mm/min" : "");
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    fits &= !several && m->column[c].at > 0 ? ~BIT(m->column[c].at - 1) : ~0ULL;
+  }
+  const char *name = sb_channel_names[channel];
+  g_autofree char *layout = sb_measured_layout(m, false);
+  g_autofree char *layouts = sb_choice_layouts(layout, fits, name);
+  const bool timed = fits == 0 && channel != SB_CHANNEL_FORCE && m->column[SB_CHANNEL_TIME].at > 0;
+  if (several) {
+    const size_t first = FIRST(fits), second = FIRST(fits & (fits - 1));
+    return sb_data_add_choice(data, SB_DATA_COLUMNS, layouts, issues,
+                              "column %zu \"%s\" and column %zu \"%s\" may both be the %s",
+                              first + 1, table->column[first].name, second + 1,
+                              table->column[second].name, name);
+  }
+  return sb_data_add_choice(
+      data, timed ? SB_DATA_SPEED : SB_DATA_COLUMNS, layouts, issues,
+      "no column of the %zu (%s) is known as the %s%s", table->columns, list->str, name,
+      timed ? ": specify the constant speed of the machine, as in speed = 20 mm/min" : "");
 }
 
 static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data, double speed,
                            double *scale, GPtrArray *issues) {
-  if (!take_said(m, table, data, issues) ||
-      (data->text[SB_DATA_COLUMNS] == NULL && !find_channels(m, table, data, issues)) ||
-      !settle_speed(m, table, data, speed, issues)) {
+  const bool said = take_said(m, table, data, issues);
+  if (said && data->text[SB_DATA_COLUMNS] == NULL) {
+    find_channels(m, table);
+  }
+  if (!said || !settle_speed(m, table, data, speed, issues)) {
     return false;
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
@@ -269,13 +274,18 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
     m->column[c].name = g_strdup(column->name);
     m->column[c].clock = column->clock;
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
+  }
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    const char *unit = m->column[c].unit;
     scale[c] = 1;
-    if (!column->clock && !unit_scale(&scale[c], column->unit, (SbChannel)c)) {
-      const bool none = *column->unit == '\0';
-      return sb_data_add_issue(data, SB_DATA_UNITS, NULL, issues,
-                               "column %zu \"%s\" (%s) has %s%s%s: specify it, as in units = mm, N",
-                               at, column->name, channels[c].name, none ? "no unit" : "the unit \"",
-                               column->unit, none ? "" : "\", which is none of its kind");
+    if (unit != NULL && !m->column[c].clock && !unit_scale(&scale[c], unit, (SbChannel)c)) {
+      const bool none = *unit == '\0';
+      g_autofree char *layout = sb_measured_layout(m, true);
+      g_autofree char *all = sb_choice_layouts(layout, BIT(m->column[c].at - 1), channels[c].units);
+      return sb_data_add_choice(
+          data, SB_DATA_UNITS, all, issues, "column %zu \"%s\" (%s) has %s%s%s", m->column[c].at,
+          m->column[c].name, sb_channel_names[c], none ? "no unit" : "the unit \"", unit,
+          none ? "" : "\", which is none of its kind");
     }
   }
   return true;
@@ -303,7 +313,7 @@ static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, 
       if (!(fabs(value[kept]) <= channels[c].most)) {
         return sb_data_add_issue(
             data, SB_DATA_UNITS, NULL, issues, "row %zu has a %s of %g %s, more than %g %s", i + 1,
-            channels[c].name, value[kept], channels[c].si, channels[c].most, channels[c].si);
+            sb_channel_names[c], value[kept], channels[c].si, channels[c].most, channels[c].si);
       }
     }
     kept += whole;

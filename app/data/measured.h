@@ -32,8 +32,8 @@
 // Columns that are used.
 typedef enum { SB_CHANNEL_TIME, SB_CHANNEL_DISPLACEMENT, SB_CHANNEL_FORCE, SB_CHANNELS } SbChannel;
 
-// Returns "time", "displacement" or "force".
-const char *sb_channel_name(SbChannel channel);
+// "time", "displacement" and "force".
+extern const char *const sb_channel_names[SB_CHANNELS];
 
 // Origin of a value.
 typedef enum {

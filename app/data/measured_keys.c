@@ -42,29 +42,21 @@ static const char *decimal_name(const SbMeasured *m) {
   return decimal_names[strchr(decimals + 1, m->dialect.decimal) - decimals - 1];
 }
 
+char *sb_measured_layout(const SbMeasured *m, bool units) {
+  char *layout = g_strdup("-");
+  for (int c = 0; c < SB_CHANNELS; c++) {
+    const char *unit = m->column[c].clock ? "-" : m->column[c].unit;
+    sb_choice_place(&layout, m->column[c].at, units ? unit : sb_channel_names[c]);
+  }
+  return layout;
+}
+
 char *sb_measured_keys(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
   g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m),
                          decimal_name(m), sb_text_table_encodings[m->dialect.encoding]);
-  size_t last = 1;
-  for (int c = 0; c < SB_CHANNELS; c++) {
-    last = MAX(last, m->column[c].at);
-  }
-  for (int units = 0; units < 2; units++) {
-    g_string_append(out, units ? "units = " : "columns = ");
-    for (size_t i = 1; i <= last; i++) {
-      const char *word = "-";
-      for (int c = 0; c < SB_CHANNELS; c++) {
-        if (m->column[c].at == i) {
-          word = !units               ? sb_channel_name((SbChannel)c)
-                 : m->column[c].clock ? "-"
-                                      : m->column[c].unit;
-        }
-      }
-      g_string_append_printf(out, "%s%s", i > 1 ? ", " : "", word);
-    }
-    g_string_append_c(out, '\n');
-  }
+  g_autofree char *columns = sb_measured_layout(m, false), *units = sb_measured_layout(m, true);
+  g_string_append_printf(out, "columns = %s\nunits = %s\n", columns, units);
   if (m->speed > 0) {
     g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
     g_string_append_printf(out, "speed = %s\n", speed);
@@ -91,9 +83,9 @@ char *sb_measured_text(const SbMeasured *m) {
                          m->header_lines);
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].at > 0) {
-      g_string_append_printf(out, "%s: column %zu \"%s\" in %s (%s)\n",
-                             sb_channel_name((SbChannel)c), m->column[c].at, m->column[c].name,
-                             m->column[c].unit, hows[m->column[c].how]);
+      g_string_append_printf(out, "%s: column %zu \"%s\" in %s (%s)\n", sb_channel_names[c],
+                             m->column[c].at, m->column[c].name, m->column[c].unit,
+                             hows[m->column[c].how]);
     }
   }
   if (m->specimens > 1) {

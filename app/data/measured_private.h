@@ -14,6 +14,9 @@ bool sb_measured_find(SbMeasured *measured, const SbData *data, GPtrArray *issue
 // Returns the rows of cycle `index`, from 0, below measured->cycle->len; borrowed.
 const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t index);
 
+// Returns the layout (choice.h) of the columns by the names of their channels, or by their units.
+char *sb_measured_layout(const SbMeasured *measured, bool units);
+
 // Texts of the key `direction`: bit 0 of the index is set if the force is reversed, bit 1 if the
 // displacement is. Ended by NULL.
 extern const char *const sb_measured_directions[];

@@ -41,16 +41,31 @@ SbData *sb_data_of_file(const char *path) {
   return data;
 }
 
+// Returns the name of a key with its group, "data lot-2.columns". Freed by g_free().
+static char *full_key(const SbData *data, SbDataKey key) {
+  return g_strdup_printf("data%s%s.%s", *data->name != '\0' ? " " : "", data->name, names[key]);
+}
+
 bool sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
                        const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   g_autofree char *text = g_strdup_vprintf(format, arguments);
   va_end(arguments);
-  g_autofree char *where =
-      g_strdup_printf("data%s%s.%s", *data->name != '\0' ? " " : "", data->name, names[key]);
+  g_autofree char *where = full_key(data, key);
   return sb_issues_add(issues, data->shown != NULL ? data->shown : data->path, data->line, where,
                        allowed, "%s", text);
+}
+
+bool sb_data_add_choice(const SbData *data, SbDataKey key, const char *values, GPtrArray *issues,
+                        const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  g_autofree char *text = g_strdup_vprintf(format, arguments);
+  va_end(arguments);
+  g_autofree char *where = full_key(data, key);
+  return sb_issues_add_choice(issues, data->shown != NULL ? data->shown : data->path, data->line,
+                              where, values, true, "%s", text);
 }
 
 static SbData *find(const GPtrArray *list, const char *name) {

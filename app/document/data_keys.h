@@ -82,3 +82,8 @@ void sb_data_set_keys(SbData *data, const char *text);
 // range or NULL. Always returns false, as sb_issues_add().
 bool sb_data_add_issue(const SbData *data, SbDataKey key, const char *allowed, GPtrArray *issues,
                        const char *format, ...) G_GNUC_PRINTF(5, 6);
+
+// As sb_data_add_issue(), for a problem that one of the values of the key resolves:
+// sb_issues_add_choice() with its remedy.
+bool sb_data_add_choice(const SbData *data, SbDataKey key, const char *values, GPtrArray *issues,
+                        const char *format, ...) G_GNUC_PRINTF(5, 6);

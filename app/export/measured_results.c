@@ -23,7 +23,7 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
   sb_json_object(json, "columns");
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].at > 0) {
-      sb_json_object(json, sb_channel_name((SbChannel)c));
+      sb_json_object(json, sb_channel_names[c]);
       sb_json_count(json, "column", m->column[c].at);
       sb_json_string(json, "name", m->column[c].name);
       sb_json_string(json, "unit", m->column[c].unit);

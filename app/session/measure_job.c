@@ -26,8 +26,8 @@ SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void
   return job;
 }
 
-SbMeasured *sb_measure_job_take(SbMeasureJob *job, char **why) {
-  *why = job->measured == NULL ? sb_issue_line(job->issues->pdata[0]) : NULL;
+SbMeasured *sb_measure_job_take(SbMeasureJob *job, const SbIssue **why) {
+  *why = job->measured == NULL ? job->issues->pdata[0] : NULL;
   return g_steal_pointer(&job->measured);
 }
 

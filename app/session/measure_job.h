@@ -12,8 +12,8 @@ SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void
                                    void *user);
 
 // To be called once, after `done`: returns the loop, freed by sb_measured_free(). NULL: it could
-// not be read; *why is then the reason, freed by g_free().
-SbMeasured *sb_measure_job_take(SbMeasureJob *job, char **why);
+// not be read; *why is then the reason, borrowed from the job, otherwise NULL.
+SbMeasured *sb_measure_job_take(SbMeasureJob *job, const SbIssue **why);
 
 // Waits until the file is read and frees the job.
 void sb_measure_job_free(SbMeasureJob *job);

@@ -16,7 +16,9 @@ static void take_measured(SbSession *session, SbMeasured *measured) {
 static void on_read(void *data) {
   SbSession *session = data;
   g_clear_pointer(&session->measured_failure, g_free);
-  take_measured(session, sb_measure_job_take(session->measuring, &session->measured_failure));
+  const SbIssue *why;
+  take_measured(session, sb_measure_job_take(session->measuring, &why));
+  session->measured_failure = why != NULL ? sb_issue_line(why) : NULL;
   g_clear_pointer(&session->measuring, sb_measure_job_free);
   sb_session_run_changed(session);
 }

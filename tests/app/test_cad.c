@@ -4,6 +4,7 @@
 #include "tests/app/drawing.h"
 
 #include "app/base/error.h"
+#include "tests/app/choices.h"
 
 #include <math.h>
 #include <string.h>
@@ -188,8 +189,23 @@ static void test_refused(void) {
     g_assert_null(sb_cad_parse_dxf(cases[i].text, length, "a.dxf", choices, &error));
     g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
     g_assert_cmpstr(error->message, ==, cases[i].says);
+    g_assert_true((sb_app_error_choice(error) != NULL) == (i == 4));
+    if (i == 4) {
+      assert_choice(sb_app_error_choice(error), error->message, "unit", "mm\ncm\ninch");
+    }
     g_error_free(error);
   }
+  // A seal's own section has no option for its unit; an axis out of the plane is refused.
+  const SbCadChoices section = {.section = true}, across = {.axis = (double[]){0, 0, 1}};
+  GError *problem = NULL;
+  const char *bare = cases[4].text;
+  g_assert_null(sb_cad_parse_dxf(bare, strlen(bare), "a.dxf", &section, &problem));
+  g_assert_cmpstr(problem->message, ==, "a.dxf: states no unit ($INSUNITS)");
+  g_assert_null(sb_app_error_choice(problem));
+  g_clear_error(&problem);
+  g_assert_null(sb_cad_parse_dxf(bare, strlen(bare), "a.dxf", &across, &problem));
+  assert_choice(sb_app_error_choice(problem), problem->message, "axis", "x\ny");
+  g_clear_error(&problem);
   // Lines that close to nothing; a unit that is no length.
   g_autoptr(GString) open = drawing_begin(4);
   drawing_line(open, "0", 0, 1, 2, 3);

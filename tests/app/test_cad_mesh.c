@@ -2,6 +2,7 @@
 #include "app/cad/cad_private.h"
 
 #include "app/base/error.h"
+#include "tests/app/choices.h"
 
 #include <math.h>
 #include <string.h>
@@ -163,6 +164,17 @@ static void test_mesh_refused(void) {
   g_assert_cmpstr(error->message, ==,
                   "parts/Stem-centre.stl: an STL file states no unit, and its longest side of 1.2 "
                   "is 1.2 mm in mm, 12 mm in cm, 30.5 mm in inch: specify it with --unit");
+  assert_choice(sb_app_error_choice(error), error->message, "unit", "mm\ncm\ninch");
+  // A copy with the name of another file has the choice too; each of its units is accepted.
+  g_autoptr(GError) copy = g_error_copy(error);
+  sb_app_error_prefix(&copy, "x.scene");
+  assert_choice(sb_app_error_choice(copy), copy->message, "unit", "mm\ncm\ninch");
+  for (char **unit = sb_app_error_choice(copy)->value; *unit != NULL; unit++) {
+    g_clear_error(&error);
+    g_autoptr(SbCad) chosen = parse_mesh(small, &(SbCadChoices){.unit = *unit}, &error);
+    g_assert_no_error(error);
+    g_assert_nonnull(chosen);
+  }
   g_clear_error(&error);
   // A facet is missing: open.
   const guint32 fewer = slotted->data[80] - 1U + 256U * slotted->data[81];

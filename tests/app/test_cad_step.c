@@ -4,6 +4,7 @@
 #include "app/cad/cad.h"
 
 #include "app/base/error.h"
+#include "tests/app/choices.h"
 
 #include <glib/gstdio.h>
 #include <gmshc.h>
@@ -240,6 +241,11 @@ static void test_ball(void) {
                     : kind == 1 ? "through 2, 1, 0 mm along 0, 0, 1"
                                 : "through 2, 1, 0 mm along 0, 0, 1");
   }
+  const SbCadChoices none = {0};
+  g_autoptr(GError) error = NULL;
+  g_autofree char *block = g_build_filename(folder, "ball.step", NULL); // the last one written
+  g_assert_null(sb_cad_read(block, &none, &error));
+  assert_choice(sb_app_error_choice(error), error->message, "axis", "x\ny\nz");
 }
 
 // Not there, not STEP, cut short, of no solid, and lengths that no double holds.

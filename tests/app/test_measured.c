@@ -4,6 +4,7 @@
 #include "app/document/document.h"
 
 #include "engine/numeric/sampling.h"
+#include "tests/app/choices.h"
 #include "tests/executed.h"
 
 #include <glib/gstdio.h>
@@ -392,6 +393,52 @@ static void test_refused(void) {
   }
 }
 
+// A refusal has the key that decides and its plausible values; each of them is accepted.
+static void test_choices(void) {
+  static const struct {
+    const char *text, *key, *values;
+  } cases[] = {
+      {"Weg [mm];Kraft [N]\n1,234;5,678\n1,235;5,679\n", "decimal", "point\ncomma"},
+      {"Weg,Kraft\n0,001,12,5\n0,002,12,6\n0,003,12,7\n", "separator", "comma"},
+      {"Weg [mm];Stroke [mm];Kraft [N]\n0.1;1.5;1\n0.2;1.6;2\n0.3;1.7;2\n", "columns",
+       "displacement, -, force\n-, displacement, force"},
+      // Of two forces too, none is chosen with the displacement.
+      {"Weg [mm];Stroke [mm];Kraft [N];Load [N]\n0.1;1.5;1;1\n0.2;1.6;2;2\n0.3;1.7;2;2\n",
+       "columns", "displacement\n-, displacement"},
+      {"s;a;b;Kraft [N]\n0;0.1;1.5;1\n1;0.2;1.6;2\n2;0.3;1.7;2\n", "units",
+       "mm, -, -, N\nµm, -, -, N\nin, -, -, N"},
+      {"0.1,1.5\n0.2,1.6\n0.3,1.7\n", "columns", "displacement\n-, displacement"},
+      {"Weg;Kraft\n0.1;1.5\n0.2;1.6\n0.3;1.7\n", "units", "mm, -\nµm, -\nin, -"},
+      {"Weg [mm];Kraft\n0.1;1.5\n0.2;1.6\n0.3;1.7\n", "units",
+       "mm, N\nmm, kN\nmm, gf\nmm, kgf\nmm, lbf"},
+      {"Time [s];Kraft [N]\n0;1.5\n1;1.6\n2;1\n", "speed", ""},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    SbData *data = sb_data_of_file("x.csv");
+    g_assert_null(sb_measured_parse(data, 0, cases[i].text, strlen(cases[i].text), issues));
+    g_assert_cmpuint(issues->len, ==, 1);
+    sb_issues_add_copy(issues, issues->pdata[0]);
+    const SbIssue *issue = issues->pdata[1];
+    assert_choice(&issue->choice, issue->text, cases[i].key, cases[i].values);
+    g_autofree char *line = sb_issue_line(issue), *problem = sb_issue_problem(issue);
+    g_autofree char *start = g_strndup(line, strlen(problem));
+    g_assert_cmpstr(start, ==, problem);
+    for (char **value = issue->choice.value; *value != NULL; value++) {
+      g_autoptr(GPtrArray) after = sb_issues_new();
+      g_autofree char *keys = g_strdup_printf("%s = %s\n", cases[i].key, *value);
+      SbData *chosen = sb_data_copy(data);
+      sb_data_set_keys(chosen, keys);
+      SbMeasured *m = sb_measured_parse(chosen, 0, cases[i].text, strlen(cases[i].text), after);
+      g_assert_true(m == NULL && after->len == 1); // three rows are no loop
+      g_autofree char *next = sb_issue_line(after->pdata[0]);
+      g_assert_cmpstr(next, !=, line);
+      sb_data_free(chosen);
+    }
+    sb_data_free(data);
+  }
+}
+
 // A record over time alone of a machine: its displacement is that of the columns, at the speed that
 // a key or the drive says; crossed signs and rows of a second cycle change nothing.
 static void test_time_alone(void) {
@@ -602,6 +649,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/peak", test_peak);
   g_test_add_func("/measured/said", test_said);
   g_test_add_func("/measured/refused", test_refused);
+  g_test_add_func("/measured/choices", test_choices);
   g_test_add_func("/measured/time-alone", test_time_alone);
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/numbers", test_numbers);

@@ -2,6 +2,7 @@
 // scan is refused with the place.
 #include "app/data/scan/scan.h"
 #include "app/data/scan/scan_figures.h"
+#include "tests/app/choices.h"
 #include "tests/app/scan_files.h"
 
 #include "app/base/error.h"
@@ -60,6 +61,15 @@ static void assert_refused(const char *data, gsize length, const SbScanChoices *
   g_error_free(error);
 }
 
+// Refused with a choice: its key and its values, one a line.
+static void assert_chosen(const char *data, gsize length, const SbScanChoices *choices,
+                          const char *key, const char *values) {
+  SbScan scan;
+  g_autoptr(GError) error = NULL;
+  g_assert_false(sb_scan_parse(&scan, data, length, choices, "scan", &error));
+  assert_choice(sb_app_error_choice(error), error->message, key, values);
+}
+
 static void assert_cut_refused(const GByteArray *bytes) {
   for (gsize length = 4; length < bytes->len; length += 1 + length / 9) {
     // In memory of its own, so that a look beyond its end is seen.
@@ -85,11 +95,15 @@ static void test_gwy(void) {
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "4"},
                  "no channel 4 (there are 0 \"Topography 0\", 9)");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "--unit");
+  assert_chosen((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "unit", "");
+  assert_chosen((char *)bytes->data, bytes->len, &(SbScanChoices){.lateral_unit = 1},
+                "lateral-unit", "");
   assert_cut_refused(bytes);
   g_byte_array_unref(bytes);
   // Several channels are not chosen from.
   bytes = write_gwy(&h, 2);
   assert_refused((char *)bytes->data, bytes->len, &plain, "--channel");
+  assert_chosen((char *)bytes->data, bytes->len, &plain, "channel", "0\n1");
   parse(&scan, bytes, &(SbScanChoices){.channel = "Topography 1"});
   assert_same(&scan, &h, 1e-30);
   sb_scan_clear(&scan);
@@ -256,10 +270,13 @@ static void test_matrix(void) {
   h.dy = h.dx;
   text = matrix(esri, " ", '.', "-9999");
   assert_refused(text->str, text->len, &plain, "the unit of its heights: specify it with --unit");
+  assert_chosen(text->str, text->len, &plain, "unit", "nm\num\nmm");
+  assert_chosen(text->str, text->len, &(SbScanChoices){.channel = "1"}, "channel", "");
   assert_text(text, &(SbScanChoices){.unit = 1e-9, .lateral_unit = 1e-6}, &h);
   g_string_free(text, TRUE);
   text = matrix("", "\t", '.', "nan");
   assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "--spacing");
+  assert_chosen(text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "spacing", "");
   assert_text(text, &(SbScanChoices){.unit = 1e-9, .spacing = 0.5e-6}, &h);
   g_string_append(text, "1 2 3\n");
   assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},

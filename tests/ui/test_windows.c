@@ -69,16 +69,6 @@ static void test_closed_windows_are_gone(void) {
   g_assert_cmpuint(growth / windows, <, 100 * 1024);
 }
 
-static GtkDialog *open_dialog(void) {
-  g_autoptr(GList) all = gtk_window_list_toplevels();
-  for (GList *one = all; one != NULL; one = one->next) {
-    if (GTK_IS_DIALOG(one->data)) {
-      return one->data;
-    }
-  }
-  return NULL;
-}
-
 // Waits until the dialog may import, or may not.
 static void wait_for(GtkDialog *dialog, gboolean ready) {
   GtkWidget *import = gtk_dialog_get_widget_for_response(dialog, GTK_RESPONSE_ACCEPT);

@@ -46,3 +46,14 @@ static inline GtkWidget *named(gpointer inside, const char *name, GType type) {
   }
   return wanted.found;
 }
+
+// The dialog that is open; NULL: none.
+static inline GtkDialog *open_dialog(void) {
+  g_autoptr(GList) all = gtk_window_list_toplevels();
+  for (GList *one = all; one != NULL; one = one->next) {
+    if (GTK_IS_DIALOG(one->data)) {
+      return one->data;
+    }
+  }
+  return NULL;
+}

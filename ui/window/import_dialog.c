@@ -2,6 +2,7 @@
 // choices not made are filled with what was found. What was read is drawn as it will be seen.
 #include "ui/window/import_dialog.h"
 
+#include "app/base/error.h"
 #include "ui/views/style.h"
 #include "ui/window/import_private.h"
 
@@ -14,18 +15,6 @@ static const char *choice_text(const SbImportDialog *dialog, int i) {
   GtkWidget *widget = dialog->choice[i];
   return GTK_IS_ENTRY(widget) ? gtk_entry_get_text(GTK_ENTRY(widget))
                               : gtk_combo_box_get_active_id(GTK_COMBO_BOX(widget));
-}
-
-void sb_import_problem(SbImportDialog *dialog, const char *why) {
-  g_autofree char *text = g_strdup(why != NULL ? why : "");
-  for (const SbImportRow *row = dialog->kind->row; row->key != NULL; row++) {
-    g_autofree char *option = g_strconcat("--", row->key, NULL);
-    g_autofree char *label = g_strdup_printf("\"%s\"", _(row->label));
-    g_auto(GStrv) parts = g_strsplit(text, option, -1);
-    g_free(text);
-    text = g_strjoinv(label, parts);
-  }
-  gtk_label_set_text(GTK_LABEL(dialog->message), text);
 }
 
 void sb_import_set_choice(SbImportDialog *dialog, int i, const char *text) {
@@ -76,13 +65,70 @@ static void read_file(SbImportDialog *dialog) {
   dialog->kind->start(dialog);
 }
 
+// Refusals ---------------------------------------------------------------------------------------
+
+static void remove_offer(GtkWidget *widget, gpointer data) {
+  gtk_widget_destroy(widget);
+}
+
+void sb_import_problem(SbImportDialog *dialog, const char *why) {
+  gtk_label_set_text(GTK_LABEL(dialog->message), why != NULL ? why : "");
+  gtk_container_foreach(GTK_CONTAINER(dialog->offers), remove_offer, NULL);
+}
+
+// Sets the row of the form, as if the user had typed the value, and reads the file again.
+static void on_offer(GtkWidget *button, SbImportDialog *dialog) {
+  const int i = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(button), "row"));
+  const char *value = g_object_get_data(G_OBJECT(button), "value");
+  sb_import_set_choice(dialog, i, value);
+  dialog->said[i] = *value != '\0';
+  read_file(dialog);
+}
+
+static void add_offer(SbImportDialog *dialog, int i, const char *value) {
+  const char *label = *value != '\0' ? value : _("as in the file");
+  GtkWidget *button = gtk_button_new_with_label(label);
+  g_object_set_data(G_OBJECT(button), "row", GINT_TO_POINTER(i));
+  g_object_set_data_full(G_OBJECT(button), "value", g_strdup(value), g_free);
+  g_signal_connect(button, "clicked", G_CALLBACK(on_offer), dialog);
+  g_autofree char *name = g_strdup_printf("%s: %s", _(dialog->kind->row[i].label), label);
+  sb_style_name(button, name, NULL);
+  gtk_container_add(GTK_CONTAINER(dialog->offers), button);
+  gtk_widget_set_can_focus(gtk_widget_get_parent(button), FALSE);
+}
+
+void sb_import_refuse(SbImportDialog *dialog, char *problem, const SbChoice *choice) {
+  const SbImportRow *row = dialog->kind->row;
+  int i = 0;
+  while (row[i].key != NULL && (choice == NULL || g_strcmp0(row[i].key, choice->key) != 0)) {
+    i++;
+  }
+  g_autofree char *text = row[i].key != NULL
+                              ? g_strdup_printf(_("%s: choose \"%s\""), problem, _(row[i].label))
+                              : g_strdup(problem);
+  sb_import_problem(dialog, text);
+  for (char **value = row[i].key != NULL ? choice->value : NULL; value != NULL && *value != NULL;
+       value++) {
+    add_offer(dialog, i, *value);
+  }
+  gtk_widget_show_all(dialog->offers);
+  g_free(problem);
+}
+
+void sb_import_refuse_error(SbImportDialog *dialog, const GError *error) {
+  const SbChoice *choice = sb_app_error_choice(error);
+  sb_import_refuse(
+      dialog, choice != NULL ? sb_choice_problem(choice, error->message) : g_strdup(error->message),
+      choice);
+}
+
 void sb_import_on_read(void *data) {
   SbImportDialog *dialog = data;
   g_autofree char *text = dialog->kind->take(dialog);
   busy(dialog, FALSE);
   gtk_dialog_set_response_sensitive(GTK_DIALOG(dialog->dialog), GTK_RESPONSE_ACCEPT, text != NULL);
   if (text != NULL) {
-    gtk_label_set_text(GTK_LABEL(dialog->message), "");
+    sb_import_problem(dialog, NULL);
     gtk_label_set_text(GTK_LABEL(dialog->text), text);
   }
   sb_style_name(dialog->area, dialog->kind->picture, text);
@@ -210,6 +256,13 @@ static void open_dialog(GtkWindow *parent, SbSession *session, const SbImportKin
   gtk_box_pack_start(GTK_BOX(foot), dialog->spinner, FALSE, FALSE, 0);
   gtk_box_pack_start(GTK_BOX(foot), dialog->message, TRUE, TRUE, 0);
   gtk_box_pack_start(GTK_BOX(content), foot, FALSE, FALSE, 0);
+  // Below the message, in as many lines as they need.
+  dialog->offers = gtk_flow_box_new();
+  gtk_flow_box_set_selection_mode(GTK_FLOW_BOX(dialog->offers), GTK_SELECTION_NONE);
+  gtk_flow_box_set_max_children_per_line(GTK_FLOW_BOX(dialog->offers), 12);
+  gtk_container_set_border_width(GTK_CONTAINER(dialog->offers), 12);
+  gtk_widget_set_halign(dialog->offers, GTK_ALIGN_START);
+  gtk_box_pack_start(GTK_BOX(content), dialog->offers, FALSE, FALSE, 0);
   sb_style_window(dialog->dialog);
   gtk_widget_show_all(dialog->dialog);
   const SbDocument *document = sb_session_document(session);

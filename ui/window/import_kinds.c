@@ -45,11 +45,11 @@ static void start_measured(SbImportDialog *dialog) {
 }
 
 static char *take_measured(SbImportDialog *dialog) {
-  g_autofree char *why = NULL;
+  const SbIssue *why;
   SbMeasured *measured = sb_measure_job_take(dialog->measuring, &why);
   sb_import_forget_measured(dialog);
   if (measured == NULL) {
-    sb_import_problem(dialog, why);
+    sb_import_refuse(dialog, sb_issue_problem(why), &why->choice);
     return NULL;
   }
   // Beside the displayed run, as it will stand on the page.
@@ -122,10 +122,10 @@ static void start_reading(SbImportDialog *dialog) {
 }
 
 static char *take_scan(SbImportDialog *dialog) {
-  const char *why = NULL;
+  const GError *why = NULL;
   dialog->surface = sb_read_job_result(dialog->reading, &why);
   if (dialog->surface == NULL) {
-    sb_import_problem(dialog, why);
+    sb_import_refuse_error(dialog, why);
     return NULL;
   }
   const char *reason = NULL;
@@ -221,10 +221,10 @@ static char *drawn_scene(SbImportDialog *dialog, const char *path, char **differ
 }
 
 static char *take_drawing(SbImportDialog *dialog) {
-  const char *why = NULL;
+  const GError *why = NULL;
   dialog->drawn = sb_read_job_result(dialog->reading, &why);
   if (dialog->drawn == NULL) {
-    sb_import_problem(dialog, why);
+    sb_import_refuse_error(dialog, why);
     return NULL;
   }
   const SbCad *cad = dialog->drawn->cad;
@@ -251,8 +251,7 @@ static char *take_drawing(SbImportDialog *dialog) {
   g_autofree char *differences = NULL;
   g_autofree char *scene = any ? drawn_scene(dialog, "drawn.scene", &differences) : NULL;
   if (!any) {
-    gtk_label_set_text(GTK_LABEL(dialog->message),
-                       _("Assign the bodies to the parts, by number or name."));
+    sb_import_problem(dialog, _("Assign the bodies to the parts, by number or name."));
   }
   if (scene != NULL) {
     g_string_append_printf(text, "\n%s",

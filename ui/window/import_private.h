@@ -41,6 +41,7 @@ struct SbImportDialog {
   SbSession *session;       // owned reference
   // Widgets; `choice` has one for each row of the form, an entry or a combo box.
   GtkWidget *dialog, *choice[SB_IMPORT_ROWS], *area, *text, *message, *spinner;
+  GtkWidget *offers;             // buttons of the values that would resolve a refusal
   SbDrawCache *cache;            // picture of `area`
   char *path;                    // absolute path of the file, owned
   gboolean said[SB_IMPORT_ROWS]; // the row was chosen by the user or the document, not found
@@ -56,9 +57,16 @@ struct SbImportDialog {
 
 // ---- The form (import_dialog.c) ----
 
-// Shows why a file is not read; `why` NULL: no message. Options of the command line in `why` are
-// named as the rows of the form.
+// Shows a message; NULL: no message.
 void sb_import_problem(SbImportDialog *dialog, const char *why);
+
+// Shows why a file is not read. `problem` is the message without its remedy, freed here. If
+// `choice` (NULL: none) has the key of a row of the form, the message names the row, and there is a
+// button for each plausible value, which sets the row and reads the file again.
+void sb_import_refuse(SbImportDialog *dialog, char *problem, const SbChoice *choice);
+
+// As sb_import_refuse(), for the error of a reader.
+void sb_import_refuse_error(SbImportDialog *dialog, const GError *error);
 
 // Writes row `i` of the form (`text` "": empty), which does not count as chosen by the user.
 void sb_import_set_choice(SbImportDialog *dialog, int i, const char *text);

@@ -108,8 +108,8 @@ SbReadJob *sb_read_job_start(const SbReadKind *kind, const char *path, const cha
   return job;
 }
 
-const void *sb_read_job_result(const SbReadJob *job, const char **why) {
-  *why = job->error != NULL ? job->error->message : NULL;
+const void *sb_read_job_result(const SbReadJob *job, const GError **why) {
+  *why = job->error;
   return job->error == NULL ? job->object : NULL;
 }
 

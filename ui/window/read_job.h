@@ -35,8 +35,8 @@ SbReadJob *sb_read_job_start(const SbReadKind *kind, const char *path, const cha
                              void (*done)(void *data), void *user);
 
 // From the call of `done` on: returns the result of the kind, and sets *why to NULL; or returns
-// NULL, and sets *why to a sentence. Both are borrowed from the job until it is freed.
-const void *sb_read_job_result(const SbReadJob *job, const char **why);
+// NULL, and sets *why to the error. Both are borrowed from the job until it is freed.
+const void *sb_read_job_result(const SbReadJob *job, const GError **why);
 
 // Waits for the thread, which reads to its end first, and frees the job.
 void sb_read_job_free(SbReadJob *job);

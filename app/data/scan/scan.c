@@ -54,12 +54,7 @@ bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind ki
 }
 
 double sb_scan_length(const char *unit) {
-  g_autofree char *name = g_strstrip(g_strdup(unit));
-  const gsize end = strlen(name);
-  if (end > 2 && (*name == '[' || *name == '(') && strchr("])", name[end - 1]) != NULL) {
-    name[end - 1] = *name = ' ';
-    g_strstrip(name);
-  }
+  g_autofree char *name = g_strstrip(g_strdelimit(g_strdup(unit), "[]()", ' '));
   // As old instruments write it.
   if (g_ascii_strcasecmp(name, "mkm") == 0 || strcmp(name, "\xb5m") == 0) {
     return 1e-6;
@@ -84,10 +79,11 @@ static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
     format++;
   }
   if (*formats[format].start != '\0' && (choices->unit > 0 || choices->lateral_unit > 0)) {
-    return sb_app_error_input(error, "states its own units: --unit applies to text files only");
+    return sb_app_error_choose(error, choices->unit > 0 ? "unit" : "lateral-unit", "",
+                               "states its own units, which only a text file may lack");
   }
   if (format != 0 && choices->channel != NULL) {
-    return sb_app_error_input(error, "has no channels: --channel is for .gwy");
+    return sb_app_error_choose(error, "channel", "", "has no channels, which a .gwy has");
   }
   if (!formats[format].read(out, bytes, choices, error)) {
     return false;

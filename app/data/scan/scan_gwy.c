@@ -173,7 +173,7 @@ static const Channel *choose(const GArray *channels, const char *wanted, GError 
   const Channel *found = NULL;
   int count = 0;
   Field field;
-  g_autoptr(GString) list = g_string_new(NULL);
+  g_autoptr(GString) list = g_string_new(NULL), fitting = g_string_new(NULL);
   for (guint i = 0; i < channels->len; i++) {
     const Channel *channel = &g_array_index(channels, Channel, i);
     g_autofree char *number = g_strdup_printf("%ld", channel->id);
@@ -183,7 +183,7 @@ static const Channel *choose(const GArray *channels, const char *wanted, GError 
     if (wanted != NULL
             ? strcmp(number, wanted) == 0 || g_strcmp0(channel->title, wanted) == 0
             : read_field(&field, &channel->data, NULL) && strcmp(field.unit_z, "m") == 0) {
-      count++;
+      g_string_append_printf(fitting, "%s%s", count++ > 0 ? "\n" : "", number);
       found = channel;
     }
     if (list->len < 200) {
@@ -193,8 +193,8 @@ static const Channel *choose(const GArray *channels, const char *wanted, GError 
     }
   }
   if (count > 1) {
-    sb_app_error_input(error, "has %d channels%s: choose one with --channel (%s)", count,
-                       wanted != NULL ? " of that title" : " of heights", list->str);
+    sb_app_error_choose(error, "channel", fitting->str, "has %d channels%s (%s)", count,
+                        wanted != NULL ? " of that title" : " of heights", list->str);
   } else if (count == 0 && list->len == 0) {
     sb_app_error_input(error, "has no data field");
   } else if (count == 0) {

@@ -153,9 +153,9 @@ static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbS
                : h->lateral > 0          ? h->lateral
                                          : choices->unit;
   if (h->vertical == 0 || (needs_lateral && h->lateral == 0)) {
-    return sb_app_error_input(error, "does not state the unit of its %s: specify it with --%s",
-                              h->vertical == 0 ? "heights" : "lengths",
-                              h->vertical == 0 ? "unit" : "lateral-unit");
+    return sb_app_error_choose(error, h->vertical == 0 ? "unit" : "lateral-unit", "nm\num\nmm",
+                               "does not state the unit of its %s",
+                               h->vertical == 0 ? "heights" : "lengths");
   }
   if (isfinite(h->factor)) {
     sb_note_add(out->notes, "heights are multiplied by the header's factor %g", h->factor);
@@ -221,8 +221,7 @@ static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *
     return false;
   }
   return spaced || (out->heights.dx > 0 && (!matrix || out->heights.dy > 0)) ||
-         sb_app_error_input(error,
-                            "does not state the distance of its points: specify it with --spacing");
+         sb_app_error_choose(error, "spacing", NULL, "does not state the distance of its points");
 }
 
 bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
