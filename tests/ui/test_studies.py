@@ -150,7 +150,7 @@ def a_loop_is_fitted(folder):
 
 def answers_of_a_design_are_kept(folder):
     """What the page Design has computed is there in the next session: nothing is computed again."""
-    path, counts = scene(folder), []
+    path, counts = scene(folder, film="thesis"), []
     for _ in range(2):
         with App(path, env={"XDG_CACHE_HOME": folder}) as app:
             wait("the first run", app.run_done)
@@ -168,7 +168,7 @@ def answers_of_a_design_are_kept(folder):
 def a_better_design_is_found(folder):
     """The page Design: the map fills in, the best is found within limits that can be changed, any two
     parameters are axes, a point is opened or kept, and the best goes into the valve in one step."""
-    with App(scene(folder)) as app:
+    with App(scene(folder, film="thesis")) as app:
         wait("the first run", app.run_done)
         app.key("ctrl+2")
         chart = app.find("chart", "Map of the design")
