@@ -400,16 +400,18 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
       .unit = g_strdup(choices->unit),
   };
+  GError *problem = NULL;
   SbCad *cad = NULL;
   if (length >= 22 && memcmp(text, "AutoCAD Binary DXF", 18) == 0) {
-    sb_app_error_input(error, "is a binary DXF: save it as text (ASCII)");
+    sb_app_error_input(&problem, "is a binary DXF: save it as text (ASCII)");
   } else if (choices->axis != NULL && choices->axis[2] != 0) {
-    sb_app_error_choose(error, "axis", "x\ny", "a DXF has the axes x and y, not z");
+    sb_app_error_choose(&problem, "axis", "x\ny", "a DXF has the axes x and y, not z");
   } else {
-    cad = of_drawing(&drawing, choices, error);
+    cad = of_drawing(&drawing, choices, &problem);
   }
   if (cad == NULL) {
-    sb_app_error_prefix(error, name);
+    sb_app_error_prefix(&problem, name);
+    g_propagate_error(error, problem);
   }
   block_free(drawing.model);
   g_hash_table_unref(drawing.blocks);
