@@ -210,7 +210,10 @@ static void test_expansion(void) {
   SbGland glands[2];
   sb_model_gland(&glands[0], &cold, SB_INNER);
   sb_model_gland(&glands[1], &warm, SB_INNER);
-  g_assert_cmpmem(&glands[0], sizeof glands[0], &glands[1], sizeof glands[1]);
+  // From the first size on there is no padding.
+  const size_t sizes = offsetof(SbGland, section_diameter);
+  g_assert_cmpmem((char *)&glands[0] + sizes, sizeof glands[0] - sizes, (char *)&glands[1] + sizes,
+                  sizeof glands[1] - sizes);
 
   for (int given = 0; given < 2; given++) {
     const Setting stored[] = {{SB_P_STORAGE_TEMPERATURE, zero - 20},
