@@ -129,11 +129,11 @@ typedef struct {
 static const Floor PATH = {0.004, 0.002, 0.002}, DRY = {4e-4, 3e-4, 1.3e-3};
 
 // Those of a gasket: tolerances of 2e-2 and 1e-4 change its load by up to 0.41 %, its width by up
-// to 0.19 %, and its peak by up to 6.4 % (gasket.scene and gasket-hand.scene, 0.97 to 1.03 mm
+// to 0.19 %, and its peak by up to 7.7 % (gasket.scene and gasket-hand.scene, 0.97 to 1.03 mm
 // thick, campaign estimates). The peak is at the sharp edge of the contact, where the pressure of
 // the finite elements has a root, and depends on single nodes, although the peaks of two meshes may
 // agree. Estimates are a third of these changes, rounded up.
-static const Floor GASKET = {0.002, 0.022, 0.001};
+static const Floor GASKET = {0.002, 0.026, 0.001};
 
 // Load that such a ring's mesh aims at, and is wanted to.
 static const double PATH_AIM = 0.004, PATH_WANTED = 0.012;
