@@ -26,7 +26,7 @@ void sb_choice_clear(SbChoice *choice);
 char *sb_choice_problem(const SbChoice *choice, const char *message);
 
 // ---- Words for the columns of a table ----
-// A layout has a word for each column, "time, -, force"; "-" is no word.
+// A layout has a word for each column, "time, -, force"; "-" stands for none.
 
 // Writes `word` for a column, from 1, into *layout, which is replaced; 0: changes nothing.
 void sb_choice_place(char **layout, size_t column, const char *word);

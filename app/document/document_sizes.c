@@ -92,7 +92,7 @@ static void derive_land(const SbPart *part, double diameter, double from) {
   const SbOutline *outline = &shapes->outlines.part[part->index];
   g_autofree SbOutlineSurface *s = g_new(SbOutlineSurface, 1);
   sb_outline_surface(s, outline);
-  // To the left as long as the hole is no wider.
+  // To the left as long as the hole is not wider.
   double wider = diameter / 2 * (1 + 1e-4);
   size_t k = 0;
   while (k + 2 < s->count && s->x[k + 1] <= from) {

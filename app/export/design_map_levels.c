@@ -165,7 +165,7 @@ static size_t count_beyond(const Beyond *of, size_t figure, size_t i, size_t k, 
   return beyond;
 }
 
-// As do_cells(), a whole block at once where it can: paths of few parts are filled fast.
+// As do_cells(), a whole block in one call where it can: paths of few parts are filled fast.
 static void do_beyond(Beyond *of, size_t figure, size_t i, size_t k, size_t step) {
   size_t there = 0;
   const size_t beyond = count_beyond(of, figure, i, k, step, &there);

@@ -14,7 +14,7 @@ typedef struct {
   const SbStudyFile *study; // of->study
   const SbAnswers *answers; // of->answers
   char *files;              // names of the study's and the scene's file, owned
-  SbStudy *curves;          // curves of a grid, owned; NULL: the method is no grid
+  SbStudy *curves;          // curves of a grid, owned; NULL: the method is not a grid
   size_t tornados;          // number of tornado diagrams
   SbTornado *tornado;       // [tornados], owned
   GPtrArray *names;         // of char *, owned: titles that `tornado` borrows

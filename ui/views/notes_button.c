@@ -24,13 +24,13 @@ typedef struct {
 typedef struct {
   SbSession *session;
   GtkWidget *button, *popover, *on, *text, *problem, *list, *empty;
-  GArray *subjects; // of Subject, in the order of the list
-  int subject;      // shown, -1: none
-  char *shown;      // what the lists show
-  SbLater later;    // refresh()
-  SbLater take;     // stores the typed text
-  gboolean typed;   // text was typed that is not stored
-  gboolean filling; // the text is being put there by us
+  GArray *subjects;  // of Subject, in the order of the list
+  int subject;       // shown, -1: none
+  char *shown;       // what the lists show
+  SbLater later;     // refresh()
+  SbLater take;      // stores the typed text
+  gboolean unstored; // text was typed that is not stored
+  gboolean filling;  // the text is being put there by us
 } Notes;
 
 static void subject_clear(gpointer data) {
@@ -61,7 +61,7 @@ static void tell(Notes *notes, const char *problem) {
 static void take(Notes *notes) {
   Subject *subject = subject_now(notes);
   sb_later_cancel(&notes->take);
-  if (!notes->typed || subject == NULL) {
+  if (!notes->unstored || subject == NULL) {
     return;
   }
   g_autofree char *text = typed(notes);
@@ -74,7 +74,7 @@ static void take(Notes *notes) {
   }
   const gboolean good = sb_session_put_remark(notes->session, SB_REMARK_NOTE, subject->name,
                                               *text != '\0' ? text : NULL, &error);
-  notes->typed = !good;
+  notes->unstored = !good;
   g_autofree char *problem = good ? NULL : g_strdup_printf(_("Not stored: it %s"), error->message);
   tell(notes, problem);
 }
@@ -85,7 +85,7 @@ static void on_take(gpointer data) {
 
 static void on_typed(GtkTextBuffer *buffer, Notes *notes) {
   if (!notes->filling) {
-    notes->typed = TRUE;
+    notes->unstored = TRUE;
     sb_later_set(&notes->take, notes->button, TAKE_MS, on_take, notes);
   }
 }
@@ -99,14 +99,14 @@ static void fill_text(Notes *notes) {
   gtk_text_buffer_set_text(gtk_text_view_get_buffer(GTK_TEXT_VIEW(notes->text)),
                            text != NULL ? text : "", -1);
   notes->filling = FALSE;
-  notes->typed = FALSE;
+  notes->unstored = FALSE;
   tell(notes, NULL);
 }
 
 static void on_subject(GtkComboBox *combo, Notes *notes) {
   if (!notes->filling) {
     take(notes);
-    if (notes->typed) { // it could not be stored
+    if (notes->unstored) { // it could not be stored
       notes->filling = TRUE;
       gtk_combo_box_set_active(combo, notes->subject);
       notes->filling = FALSE;
@@ -303,7 +303,7 @@ static void refresh(gpointer data) {
   const Subject *subject = subject_now(notes);
   const char *now = sb_document_remark(document, SB_REMARK_NOTE, subject->name);
   g_autofree char *here = typed(notes);
-  if (!notes->typed && strcmp(here, now != NULL ? now : "") != 0) {
+  if (!notes->unstored && strcmp(here, now != NULL ? now : "") != 0) {
     fill_text(notes);
   }
 }
