@@ -112,7 +112,7 @@ static void draw_land_edge(SbSection *section) {
   sb_section_millimetre(length, fabs(way));
   bool ahead = way > 0;
   if (ahead && frame->velocity >= 0) {
-    snprintf(text, sizeof text, _("land edge: fill path opens in %s"), length);
+    snprintf(text, sizeof text, _("land edge: inner seal leaves in %s"), length);
   } else if (ahead) {
     snprintf(text, sizeof text, _("land edge: passed, %s ago"), length);
   } else {

@@ -322,7 +322,7 @@ static void test_labels(void) {
   draw(&f, c - 3);
   g_assert_true(shows(&f.list, "schematic"));
   g_assert_true(shows(&f.list, "drive 27.4 N"));
-  g_assert_true(shows(&f.list, "fill path opens in"));
+  g_assert_true(shows(&f.list, "inner seal leaves in"));
   g_assert_false(shows(&f.list, "no contact"));
   draw(&f, (c + d) / 2);
   g_assert_true(shows(&f.list, "Inner seal, no contact"));
