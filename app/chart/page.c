@@ -2,7 +2,7 @@
 // and what to be warned of; where a run gives no estimate the footer says so rather than nothing.
 #include "app/chart/page.h"
 #include "app/base/device.h"
-#include "app/base/format.h"
+#include "app/base/figure_text.h"
 
 #include <glib.h>
 #include <glib/gi18n.h>
@@ -72,61 +72,35 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run) {
   g_snprintf(out, size, _("canister %s  \xc2\xb7  %s  \xc2\xb7  %s"), pressure, speed, map);
 }
 
-// Below this an estimate is rounding of double numbers, not discretisation.
-#define ROUNDING 1e-9
-
-// Errors have two digits at most: they are estimates.
-static void append_error(GString *out, const char *label, double error) {
-  if (!isfinite(error) || error < ROUNDING) {
+// Adds the error of a figure that is neither exact nor missing.
+static void append_error(GString *out, const SbSummary *summary, int index) {
+  const SbFigure *figure = sb_figure(index);
+  const double value = sb_figure_value(summary, index);
+  const double error = sb_figure_error_absolute(summary, index);
+  if (!isfinite(value) || error == 0) {
     return;
   }
-  char number[SB_FORMAT_MAX];
-  if (error < 5e-6) {
-    g_strlcpy(number, "< 0.001", sizeof number);
-  } else {
-    sb_format_digits(number, 100 * error, 2);
-    size_t end = strlen(number);
-    while (strchr(number, '.') && number[end - 1] == '0') {
-      number[--end] = 0;
-    }
-    if (number[end - 1] == '.') {
-      number[--end] = 0;
-    }
-  }
-  g_string_append_printf(out, "%s%s %s\xc2\xa0%%", out->len ? ", " : "", label, number);
+  g_autofree char *text = isfinite(error) ? sb_figure_error_format(index, value, error) : NULL;
+  g_string_append_printf(out, "%s%s%s%s", out->len ? DOT : "", _(figure->label),
+                         *figure->where ? ", " : "", *figure->where ? _(figure->where) : "");
+  g_string_append_printf(out, text ? " \xc2\xb1 %s" : " %s", text ? text : _("error not known"));
 }
 
-static void append_rounding(GString *out, const char *label, double error) {
-  if (isfinite(error) && error < ROUNDING) {
-    g_string_append_printf(out, "%s%s", out->len ? ", " : "", label);
-  }
-}
-
-void sb_page_errors_text(char *out, size_t size, const SbChartRun *run) {
-  const SbSummary *s = run->summary;
-  if (!s) {
+void sb_page_errors_text(char *out, size_t size, const SbSummary *summary) {
+  if (!summary) {
     g_strlcpy(out, _("known when the run has ended"), size);
     return;
   }
-  const struct {
-    const char *label;
-    double error;
-  } parts[] = {{_("load"), s->error_load},
-               {_("force"), s->error_force},
-               {_("film"), s->error_film},
-               {_("energy"), s->error_energy},
-               {_("energy closure"), s->energy.closure}};
+  // A valve has none of the rig's figures, and the rig none of the valve's.
   g_autoptr(GString) text = g_string_new(NULL);
-  g_autoptr(GString) rounding = g_string_new(NULL);
-  for (size_t i = 0; i < G_N_ELEMENTS(parts); i++) {
-    append_error(text, parts[i].label, parts[i].error);
-    append_rounding(rounding, parts[i].label, parts[i].error);
+  append_error(text, summary, sb_figure_find("cycle.force_breakaway_N"));
+  append_error(text, summary, sb_figure_find("cycle.force_return_margin_N"));
+  for (int i = 0; i < SB_FIGURE_COUNT; i++) {
+    if (sb_figure(i)->brief && sb_figure(i)->group == SB_GROUP_RIG) {
+      append_error(text, summary, i);
+    }
   }
-  if (rounding->len) {
-    g_string_append_printf(text, _("%s%s: rounding only"), text->len ? "; " : "", rounding->str);
-  }
-  g_string_append(text, _("  (discretisation, not the choice of model)"));
-  g_strlcpy(out, text->str, size);
+  g_strlcpy(out, text->len ? text->str : _("rounding only"), size);
 }
 
 // ---------------------------------------------------------------------------------------------------
@@ -383,7 +357,8 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
                          unsigned flags) {
   char models[512], errors[512], version[160];
   sb_page_models_text(models, sizeof models, &data->run);
-  sb_page_errors_text(errors, sizeof errors, &data->run);
+  sb_page_errors_text(errors, sizeof errors, data->run.summary);
+  g_strlcat(errors, _("  (discretisation, not the choice of model)"), sizeof errors);
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
   if (data->hash && data->hash[0]) {
     g_strlcat(version, _("  \xc2\xb7  run "), sizeof version);

@@ -49,5 +49,7 @@ void sb_page_models_text(char *out, size_t size, const SbChartRun *run);
 // empty without a model.
 void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run);
 
-// Writes the error estimates of a run to out[size]: "load 0.17 %, film 0.3 %; energy closure: ...".
-void sb_page_errors_text(char *out, size_t size, const SbChartRun *run);
+// Writes the absolute errors of break-away force and return margin, as `sealbench run` prints them,
+// to out[size]: "Break-away force ± 0.09 N · Return margin ± 0.20 N"; of the sliding plate those of
+// its short table. `summary` is NULL until the run has ended.
+void sb_page_errors_text(char *out, size_t size, const SbSummary *summary);

@@ -325,21 +325,29 @@ static void test_comparison(void) {
   cairo_surface_destroy(c);
 }
 
-// Friction so large that the stem does not return: the axis goes below zero.
-// Estimates have two digits at most, and no point without one behind it.
+// The errors of two forces as in the table of `sealbench run`; none where a figure is exact.
 static void test_errors(void) {
-  const SbSummary summary = {.error_load = 0.03,
-                             .error_force = 0.0251,
-                             .error_film = 0.2,
-                             .error_energy = 1e-6,
-                             .energy.closure = 1e-12};
+  const int margin = sb_figure_find("cycle.force_return_margin_N");
+  const int start = sb_figure_find("cycle.force_breakaway_N");
+  g_autofree SbSummary *summary = g_new0(SbSummary, 1);
+  sb_figures_clear(summary);
+  summary->force_breakaway = 25.83;
+  summary->error[start] = 0.0876;
+  summary->force_return_margin = 4.9;
   char text[300];
-  sb_page_errors_text(text, sizeof text, &(SbChartRun){.summary = &summary});
+  sb_page_errors_text(text, sizeof text, summary);
   g_assert_cmpstr(text, ==,
-                  "load 3\xc2\xa0%, force 2.5\xc2\xa0%, film 20\xc2\xa0%, energy < 0.001\xc2\xa0%; "
-                  "energy closure: rounding only  (discretisation, not the choice of model)");
+                  "Break-away force \xc2\xb1 0.09 N  \xc2\xb7  Return margin error not known");
+  summary->error[margin] = 0.2031;
+  sb_page_errors_text(text, sizeof text, summary);
+  g_assert_cmpstr(text, ==,
+                  "Break-away force \xc2\xb1 0.09 N  \xc2\xb7  Return margin \xc2\xb1 0.20 N");
+  summary->error[start] = summary->error[margin] = 0;
+  sb_page_errors_text(text, sizeof text, summary);
+  g_assert_cmpstr(text, ==, "rounding only");
 }
 
+// Friction so large that the stem does not return: the axis goes below zero.
 static void test_no_return(void) {
   Synthetic stuck;
   synthetic_init(&stuck, 1250, 1.3);

@@ -3,7 +3,7 @@
 #include "ui/window/status_bar.h"
 
 #include "app/base/device.h"
-#include "app/base/format.h"
+#include "app/chart/page.h"
 #include "ui/views/later.h"
 #include "ui/views/signals.h"
 #include "ui/views/style.h"
@@ -20,16 +20,6 @@ typedef struct {
 static void set_text(GtkWidget *label, const char *text) {
   if (g_strcmp0(gtk_label_get_text(GTK_LABEL(label)), text) != 0) {
     gtk_label_set_text(GTK_LABEL(label), text);
-  }
-}
-
-static void append_error(GString *text, const char *name, double error) {
-  if (isfinite(error) && error > 0 && error < 1e-5) {
-    g_string_append_printf(text, _("%s%s below 0.001 %%"), text->len > 0 ? ", " : "", name);
-  } else if (isfinite(error) && error > 0.1) {
-    g_string_append_printf(text, "%s%s %.0f %%", text->len > 0 ? ", " : "", name, 100 * error);
-  } else if (isfinite(error) && error > 0) {
-    g_string_append_printf(text, "%s%s %.2g %%", text->len > 0 ? ", " : "", name, 100 * error);
   }
 }
 
@@ -191,13 +181,11 @@ static void refresh(Bar *bar) {
   refresh_models(bar);
   refresh_frames(bar);
   refresh_warnings(bar, summary);
-  g_autoptr(GString) error = g_string_new(NULL);
+  char errors[512] = "–";
   if (summary != NULL) {
-    append_error(error, _("force"), summary->error_force);
-    append_error(error, _("load"), summary->error_load);
-    append_error(error, _("film"), summary->error_film);
+    sb_page_errors_text(errors, sizeof errors, summary);
   }
-  gtk_label_set_text(GTK_LABEL(bar->error), error->len > 0 ? error->str : "–");
+  gtk_label_set_text(GTK_LABEL(bar->error), errors);
 }
 
 static GtkWidget *add_label(GtkBox *box, const char *text, const char *style) {
