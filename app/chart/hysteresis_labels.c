@@ -1,5 +1,5 @@
 // Labels of the hysteresis chart: *now*, the stages' letters with their forces, what the lines are.
-// Figures are the frames' and, for loss and least return, the summary's, so they appear only after
+// Figures are the frames' and, for loss and return force, the summary's, so they appear only after
 // the run's end. Order is importance: the collision rule serves *now* first.
 #include "app/base/figure_text.h"
 #include "app/chart/hysteresis_private.h"
@@ -241,7 +241,7 @@ static void note_figures(SbHysteresisView *v, double pressure_force) {
   if (isfinite(sum->force_return_min)) {
     const double y = sb_axis_at(&v->at.y, fmax(sum->force_return_min, v->at.y.lo));
     sb_format_figure(value, sum, sb_figure_find("cycle.force_return_min_N"));
-    g_snprintf(text, sizeof text, _("least return %s"), value);
+    g_snprintf(text, sizeof text, _("return, sliding %s"), value);
     label_curve(v, text, SB_ROLE_INK,
                 (SbPlace[]){{left, y - 9, SB_LEFT},
                             {left, y - 26, SB_LEFT},

@@ -16,7 +16,7 @@ static void fill(SbStudy *study, const SbChartRun *run) {
   SbStudyPanel *leak =
       sb_study_panel(study, &(SbStudyAxis){SB_LABEL("leakage, summed"), "m3", "nl", false}, "");
   SbStudySeries *breakaway = sb_study_series(force, SB_STUDY_CURVE, SB_LABEL("break-away"));
-  SbStudySeries *back = sb_study_series(force, SB_STUDY_CURVE, SB_LABEL("least return"));
+  SbStudySeries *back = sb_study_series(force, SB_STUDY_CURVE, SB_LABEL("return, sliding"));
   SbStudySeries *rough = sb_study_series(film, SB_STUDY_CURVE, SB_LABEL("roughness"));
   SbStudySeries *lambda = sb_study_series(film, SB_STUDY_CURVE, SB_LABEL("λ against the first"));
   SbStudySeries *carried = sb_study_series(leak, SB_STUDY_CURVE, SB_LABEL("carried out"));

@@ -15,7 +15,7 @@
 // A page smaller than this shows one chart.
 #define SMALL_WIDTH  1180.0
 #define SMALL_HEIGHT 620.0
-// Least return force that is more than weak where the scene sets no limit [N].
+// Return margin that is more than weak where the scene sets no limit [N].
 #define WEAK 2.0
 
 enum { RETURN = SB_PROPELLANTS_RETURN };
@@ -204,7 +204,7 @@ static double place_of(const Chart *chart, double T) {
   return sb_axis_at(&chart->at.x, T - ZERO);
 }
 
-// The ground under the least return: where the stem stays, and where it comes back weakly.
+// The ground under the return margin: where the stem stays, and where it comes back weakly.
 static void draw_regions(const Chart *chart) {
   SbCanvas *c = chart->c;
   const SbRect r = chart->at.plot;

@@ -99,7 +99,7 @@ static void draw_stages(SbPlot *plot, SbCellRect within, const SbCellTheme *them
   }
 }
 
-static void label_least(SbPlot *plot, SbCellRect within, const SbCellTheme *theme,
+static void label_return(SbPlot *plot, SbCellRect within, const SbCellTheme *theme,
                         const SbChartRun *run) {
   const SbSummary *summary = run->summary;
   const int figure = sb_figure_find("cycle.force_return_min_N");
@@ -109,9 +109,9 @@ static void label_least(SbPlot *plot, SbCellRect within, const SbCellTheme *them
   const SbStageMark *e = &sb_trace_marks(run->trace)[SB_STAGE_E];
   char force[SB_FORMAT_MAX], text[2 * SB_FORMAT_MAX];
   sb_format_figure(force, summary, figure);
-  g_snprintf(text, sizeof text, "least return %s", force);
+  g_snprintf(text, sizeof text, "return, sliding %s", force);
   int column, row;
-  if (e->reached && sb_plot_cell(plot, 1e3 * 0.35 * e->displacement,
+  if (e->reached && sb_plot_cell(plot, 1e3 * 0.4 * e->displacement,
                                  sb_figure_value(summary, figure), &column, &row)) {
     sb_plot_label(plot->cells, within, column, row, text, pen_of(theme, SB_ROLE_INK, 0));
   }
@@ -220,7 +220,7 @@ void sb_chart_loop(SbCells *cells, SbCellRect rect, const SbCellTheme *theme,
     return;
   }
   draw_stages(&plot, within, theme, &data->run);
-  label_least(&plot, within, theme, &data->run);
+  label_return(&plot, within, theme, &data->run);
   if (isfinite(pressure) && pressure != 0 && rect.height >= 10) {
     label_pressure(&plot, within, theme, layout.x.lo + 0.06 * (layout.x.hi - layout.x.lo),
                    pressure);
