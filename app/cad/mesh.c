@@ -346,6 +346,9 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     sb_note_add(cad->warnings, "an STL file states no unit: in %s its longest side is %.4g mm",
                 unit, 1e3 * scale * side);
   }
+  if (stl->turned > 0) {
+    sb_note_add(cad->warnings, "%zu facets were inside out and are turned", stl->turned);
+  }
   g_autofree char *name = g_path_get_basename(path);
   char *dot = strrchr(name, '.');
   if (dot != NULL && dot > name) {

@@ -125,10 +125,10 @@ static void weld(SbStl *out, const double *corners, gsize triangles, double tole
 
 // ---- binary ----
 
-// Whether the length of a file fits the number of triangles in a binary header. Binary files may
-// start with "solid" too.
+// Whether the length of a file fits the number of triangles in a binary header; a few bytes behind
+// them are ignored. Binary files may start with "solid" too.
 static bool is_binary(const char *data, gsize length) {
-  return length >= HEADER && length == HEADER + RECORD * (gsize)sb_bytes_u32(data + 80);
+  return length >= HEADER && (length - HEADER) / RECORD == sb_bytes_u32(data + 80);
 }
 
 static bool read_binary(GArray *corners, const char *data, gsize length, GError **error) {
@@ -156,9 +156,9 @@ typedef struct {
   char word[SB_NUMBER_LENGTH_MAX + 2]; // the last one, cut: too long for a number then
 } Text;
 
-// Reads the next word; false at the end.
+// Reads the next word, behind blanks and a mark of UTF-8; false at the end.
 static bool next_word(Text *t) {
-  while (t->at < t->end && g_ascii_isspace(*t->at)) {
+  while (t->at < t->end && (g_ascii_isspace(*t->at) || (*t->at & 0x80) != 0)) {
     t->line += *t->at++ == '\n';
   }
   gsize length = 0;
@@ -202,7 +202,7 @@ static bool read_text(GArray *corners, const char *data, gsize length, GError **
   bool inside = false;
   while (next_word(&t)) {
     if (is_word(&t, inside ? "endsolid" : "solid")) {
-      while (t.at < t.end && *t.at != '\n') { // its name
+      while (t.at < t.end && *t.at != '\n' && *t.at != '\r') { // its name
         t.at++;
       }
       inside = !inside;
@@ -218,7 +218,8 @@ static bool read_text(GArray *corners, const char *data, gsize length, GError **
 }
 
 bool sb_cad_is_stl(const char *data, gsize length) {
-  return is_binary(data, length) || (length >= 5 && g_ascii_strncasecmp(data, "solid", 5) == 0);
+  Text t = {.at = data, .end = data + length};
+  return is_binary(data, length) || (next_word(&t) && is_word(&t, "solid"));
 }
 
 static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize length, GError **error) {
@@ -236,7 +237,10 @@ static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize lengt
     return sb_app_error_input(error, "has corners too far from the origin");
   }
   weld(out, corner, corners->len / 9, tolerance);
-  return out->triangle_count > 0 || sb_app_error_input(error, "no triangles");
+  SbReport report = {0};
+  return sb_mesh_orient(&out->turned, out->triangles, out->triangle_count, out->vertices,
+                        &report) == SB_OK ||
+         sb_app_error_input(error, "%s", report.text);
 }
 
 gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,

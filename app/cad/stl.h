@@ -5,8 +5,8 @@
 // Corners that differ by at most 1e-5 of the diagonal of the part's bounding box along every axis
 // (or by two units of single precision, far from the origin) become one vertex, the first of them.
 // Triangles that lose a corner by that are removed and counted. Volume and moments change by as
-// much. Numbers are read independently of the locale. A file that is not STL, is incomplete, has
-// more than SB_STL_TRIANGLES_MAX triangles or contains a number that is not finite is refused.
+// much. A file that is not STL, is incomplete, has more than SB_STL_TRIANGLES_MAX triangles or a
+// number that is not finite is refused.
 #pragma once
 
 #include <glib.h>
@@ -20,6 +20,7 @@ typedef struct {
   gsize vertex_count;   //
   gsize triangle_count; //
   gsize dropped;        // triangles removed because two corners coincide
+  gsize turned;         // triangles reversed to face outwards (sb_mesh_orient())
   gboolean text;        // the file was in the text format
 } SbStl;
 

@@ -58,6 +58,13 @@ typedef struct {
 SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile, double x0,
                               double x1, SbReport *report);
 
+// Gives the triangles of each connected part of a mesh the orientation that most of its area has,
+// and reverses a part with all parts inside of its box where it is inside out. Parts are connected
+// by edges of exactly two triangles. Of more than 1000 parts nothing is changed. Writes the number
+// of triangles that were reversed. Vertices are numbers, and triangles[3 count] index them.
+SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const double *vertices,
+                        SbReport *report);
+
 // Computes the body of a closed mesh with vertices[vertex_count][3] (x, y, z) [m] and
 // triangles[triangle_count][3] of vertex numbers, counter-clockwise seen from outside.
 // SB_ERROR_RANGE: `density` [kg/m3] is not above 0. SB_ERROR_INPUT: the mesh is not a closed

@@ -169,6 +169,147 @@ static SbStatus check_mesh(double *extent, const double *vertices, size_t vertex
   return check_edges(triangles, triangle_count, report);
 }
 
+// ---- orientation ----
+
+// Largest number of parts whose places in each other are looked at.
+enum { PARTS_MAX = 1000 };
+
+// A triangle in a tree of those that edges connect. Sums of the tree are at its root.
+typedef struct {
+  size_t parent;
+  bool odd;         // its orientation differs from that of its parent
+  double area[2];   // of the triangles that are oriented as the root, and of the others
+  double volume;    // signed, where all are oriented as the root
+  double box[2][3]; // lowest and highest coordinates
+  bool flip_same;   // whether triangles that are oriented as the root are to be reversed
+} Node;
+
+// Returns the root of a triangle and whether it differs from it in orientation.
+static size_t root_of(Node *node, size_t t, bool *odd) {
+  size_t root = t;
+  for (*odd = false; node[root].parent != root; root = node[root].parent) {
+    *odd ^= node[root].odd;
+  }
+  for (bool rest = *odd; t != root;) { // the path becomes short
+    const Node step = node[t];
+    node[t].parent = root;
+    node[t].odd = rest;
+    rest ^= step.odd;
+    t = step.parent;
+  }
+  return root;
+}
+
+// Connects the triangles across the edges that exactly two of them have.
+static void connect_triangles(Node *node, Edge *edge, const unsigned *triangles, size_t count) {
+  for (size_t i = 0; i < 3 * count; i++) {
+    const uint64_t from = triangles[i], to = triangles[i % 3 < 2 ? i + 1 : i - 2];
+    edge[i] = (Edge){from < to ? ends_of((unsigned)from, (unsigned)to) : ends_of(to, from),
+                     2 * (i / 3) + (from < to)};
+  }
+  qsort(edge, 3 * count, sizeof *edge, by_ends);
+  for (size_t i = 0, next; i < 3 * count; i = next) {
+    for (next = i + 1; next < 3 * count && edge[next].ends == edge[i].ends;) {
+      next++;
+    }
+    if (next - i == 2) {
+      const bool same = edge[i].triangle % 2 == edge[i + 1].triangle % 2;
+      bool odd[2];
+      const size_t a = root_of(node, edge[i].triangle / 2, &odd[0]);
+      const size_t b = root_of(node, edge[i + 1].triangle / 2, &odd[1]);
+      node[b].odd = a != b && (same ^ odd[0] ^ odd[1]);
+      node[b].parent = a;
+    }
+  }
+}
+
+static void add_to_part(Node *part, bool odd, const double *vertices, const unsigned *corner) {
+  double d[3][3], n[3], normal[3] = {0};
+  for (int i = 0; i < 3; i++) {
+    for (int k = 0; k < 3; k++) {
+      const double x = vertices[3 * (size_t)corner[i] + (size_t)k];
+      d[i][k] = x - vertices[k];
+      part->box[0][k] = fmin(part->box[0][k], x);
+      part->box[1][k] = fmax(part->box[1][k], x);
+    }
+  }
+  for (int i = 0; i < 3; i++) {
+    cross(n, d[i], d[(i + 1) % 3]);
+    for (int k = 0; k < 3; k++) {
+      normal[k] += n[k];
+    }
+  }
+  cross(n, d[0], d[1]);
+  part->area[odd] += sqrt(dot(normal, normal));
+  part->volume += odd ? -dot(n, d[2]) : dot(n, d[2]);
+}
+
+// Returns the largest of the parts whose box encloses that of `part`: itself at least.
+static const Node *outermost(const Node *node, const size_t *parts, size_t count,
+                             const Node *part) {
+  const Node *best = part;
+  for (size_t i = 0; i < count; i++) {
+    const Node *other = &node[parts[i]];
+    bool around = true;
+    for (int k = 0; k < 3; k++) {
+      around = around && other->box[0][k] <= best->box[0][k] && other->box[1][k] >= best->box[1][k];
+    }
+    best = around ? other : best;
+  }
+  return best;
+}
+
+SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const double *vertices,
+                        SbReport *report) {
+  Node *node = calloc(count + 1, sizeof *node);
+  Edge *edge = calloc(3 * count + 1, sizeof *edge);
+  size_t parts[PARTS_MAX], found = 0;
+  bool odd;
+  *turned = 0;
+  if (count == 0) {
+    free(node);
+    free(edge);
+    return sb_fail(report, SB_ERROR_INPUT, "no triangles");
+  }
+  for (size_t t = 0; node != NULL && t < count; t++) {
+    node[t] = (Node){.parent = t,
+                     .box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
+  }
+  if (node == NULL || edge == NULL) {
+    free(node);
+    free(edge);
+    return sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu triangles", count);
+  }
+  connect_triangles(node, edge, triangles, count);
+  for (size_t t = 0; t < count; t++) {
+    const size_t root = root_of(node, t, &odd);
+    add_to_part(&node[root], odd, vertices, triangles + 3 * t);
+    if (root == t) {
+      parts[found < PARTS_MAX ? found : 0] = t;
+      found++;
+    }
+  }
+  for (size_t i = 0; i < found && found <= PARTS_MAX; i++) {
+    Node *part = &node[parts[i]];
+    const Node *out = outermost(node, parts, found, part);
+    const bool outwards = (out->area[0] >= out->area[1]) == (out->volume >= 0.0);
+    part->flip_same = (part->area[0] >= part->area[1]) != outwards;
+  }
+  for (size_t t = 0; t < count && found <= PARTS_MAX; t++) {
+    if (node[root_of(node, t, &odd)].flip_same != odd) {
+      const unsigned swap = triangles[3 * t];
+      triangles[3 * t] = triangles[3 * t + 1];
+      triangles[3 * t + 1] = swap;
+      ++*turned;
+    }
+  }
+  free(node);
+  free(edge);
+  return sb_succeed(report);
+}
+
+// ---- moments ----
+
 // Sums over tetrahedra (first vertex, a, b, c): volume, centre, and second moments
 // integral of x_k x_l = V/20 (sum over pairs of corners x_k x_l + sum x_k sum x_l).
 typedef struct {

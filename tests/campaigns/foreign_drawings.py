@@ -265,6 +265,21 @@ def gaps(draw, points):
     return dxf.text(4), ['--join', '0.5um' if draw.random() < 0.1 else '2um'], 0
 
 
+def touching_circle(draw, points):
+    """A circle that touches the axis within the rounding of the file: a ring without a hole."""
+    radius, x = draw.uniform(0.5, 3), draw.uniform(4, 20)
+    off = draw.choice([0, 1e-7, -1e-7, 4e-4, -4e-4])
+    dxf = Dxf(draw)
+    dxf.begin('CIRCLE', '0')
+    dxf.point(x, radius + off)
+    dxf.put((40, dxf.number(radius)))
+    middle = radius + max(off, 0)
+    volume = 2 * math.pi ** 2 * middle * radius ** 2
+    return dxf.text(4), [], 0, {
+        'volume_m3': volume * 1e-9, 'centre_m': x * 1e-3, 'inertia_axial_m5': volume * (middle ** 2 + radius ** 2 * 3 / 4) * 1e-15,
+        'inertia_transverse_m5': volume * (middle ** 2 / 2 + radius ** 2 * 5 / 8) * 1e-15}
+
+
 def hidden(draw, points):
     """A sheet's border in paper space; sketches that are invisible or on layers off or frozen."""
     tables = [(0, 'TABLE'), (2, 'LAYER'), (70, '3'), (0, 'LAYER'), (2, 'SKETCH'), (70, '0'), (62, '-3'), (6, 'CONTINUOUS'),
@@ -352,8 +367,23 @@ def hollow_mesh(draw, points):
     return stl(draw, both), ['--axis', 'z'], 0, polyhedron(both)
 
 
+def reversed_mesh(draw, points):
+    """Facets of a hollow body of which some, or all, are reversed; blanks before a text."""
+    triangles = facets(points)
+    inner = facets([(1 + 0.1 * x, 0.2 * r, 0) for x, r, _ in points], sides=24)[:, ::-1]
+    both = numpy.concatenate([triangles, inner])
+    exact = polyhedron(both)
+    if draw.random() < 0.5:
+        both = both[:, ::-1]
+    some = numpy.array([draw.random() < 0.2 for _ in both])
+    both[some] = both[some][:, ::-1]
+    data = stl(draw, both)
+    data = data + b'\0\0' if len(data) == 84 + 50 * len(both) else b' \n' + data
+    return data, ['--axis', 'z', '--unit', 'mm'], 0, exact
+
+
 HABITS = [lines_and_arcs, polyline, old_polyline, composite_spline, ellipse_arcs, space_polyline, nested_blocks, untidy,
-          gaps, hidden, mesh, hollow_mesh]
+          gaps, touching_circle, hidden, mesh, hollow_mesh, reversed_mesh]
 
 
 def one(campaign, habit, number):

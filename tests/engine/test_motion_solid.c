@@ -237,6 +237,40 @@ static void refuse_mesh(const double *v, size_t nv, const unsigned *t, size_t nt
   }
 }
 
+// A cube around a cubic cavity. Wherever facets, or all of them, are reversed, they are turned
+// back.
+static void test_oriented(void) {
+  double v[48];
+  unsigned t[72];
+  for (int i = 0; i < 24; i++) {
+    v[i] = cube_vertex[i];
+    v[24 + i] = 0.4 + 0.25 * cube_vertex[i];
+  }
+  for (unsigned mask = 0; mask < 256; mask++) { // bit k of it: facets k, k + 8 and k + 16
+    size_t reversed = 0, turned, again;
+    for (unsigned i = 0; i < 24; i++) {
+      const bool cavity = i >= 12, all = mask >= 128, one = (mask >> i % 8 & 1) != 0 && i < 5;
+      const unsigned *from = cube + 3 * (i % 12), first = cavity ? 8 : 0;
+      const bool back = all != one;
+      reversed += back;
+      t[3 * i] = first + from[0];
+      t[3 * i + 1] = first + from[back != cavity ? 2 : 1];
+      t[3 * i + 2] = first + from[back != cavity ? 1 : 2];
+    }
+    SbSolid s;
+    SbReport report = {0};
+    g_assert_cmpint(sb_mesh_orient(&turned, t, 24, v, &report), ==, SB_OK);
+    g_assert_cmpuint(turned, ==, reversed);
+    g_assert_cmpint(sb_solid_mesh(&s, v, 16, t, 24, rho, &report), ==, SB_OK);
+    ASSERT_NEAR(s.volume, 1 - 1.0 / 64, 1e-14);
+    g_assert_cmpint(sb_mesh_orient(&again, t, 24, v, &report), ==, SB_OK);
+    g_assert_cmpuint(again, ==, 0);
+  }
+  SbReport report = {0};
+  size_t turned;
+  g_assert_cmpint(sb_mesh_orient(&turned, t, 0, v, &report), ==, SB_ERROR_INPUT);
+}
+
 static void test_refused_meshes(void) {
   refuse_mesh(cube_vertex, 8, cube, 11, "open");
   unsigned t[72];
@@ -280,6 +314,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/motion/solid/refused-profiles", test_refused_profiles);
   g_test_add_func("/motion/solid/mesh", test_mesh);
   g_test_add_func("/motion/solid/box", test_box);
+  g_test_add_func("/motion/solid/oriented", test_oriented);
   g_test_add_func("/motion/solid/refused-meshes", test_refused_meshes);
   return g_test_run();
 }
