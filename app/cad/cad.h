@@ -56,6 +56,7 @@ typedef struct {
   char *axis;          // sentence for the user on the axis of revolution
   GPtrArray *bodies;   // of SbCadBody
   GPtrArray *warnings; // of char *: sentences on what was omitted or assumed
+  double apart;        // largest gap in lines that close to no outline [m]; 0: none
 } SbCad;
 
 // What the caller states about a drawing. All zeros but the angle: as the file states.

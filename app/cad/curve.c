@@ -18,10 +18,8 @@ SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double
   const double cross = ax * by - ay * bx;
   const double phi = atan2(fabs(cross), ax * bx + ay * by);
   const double chord = hypot(to[0] - from[0], to[1] - from[1]);
-  double bulge = tan((M_PI - phi) / 2);
-  if (phi > M_PI / 2 && bulge * chord / 2 < 1e-12) {
-    bulge = 0;
-  }
+  const double arc = tan((M_PI - phi) / 2);
+  const double bulge = phi > M_PI / 2 && arc * chord / 2 < 1e-12 ? 0 : arc;
   return (SbCadPiece){from[0], from[1], to[0], to[1], cross > 0 ? -bulge : bulge};
 }
 

@@ -24,8 +24,8 @@ enum {
 };
 
 // Ends are one point within this, unless `join` is given; drawings round to a thousandth of their
-// unit at worst [m].
-static const double GAP = 1e-6;
+// unit at worst. Larger gaps that may be errors of drawing [m].
+static const double GAP = 1e-6, CLOSABLE = 0.2e-3;
 
 // A block, or model space.
 typedef struct {
@@ -377,7 +377,9 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
   if (cad->bodies->len == 0) {
     g_ptr_array_add(cad->warnings, NULL);
     g_autofree char *why = g_strjoinv("; ", (char **)cad->warnings->pdata);
-    sb_app_error_input(error, "contains no closed outline%s%s", *why != '\0' ? "; " : "", why);
+    g_autofree char *join = g_strdup_printf("%.2gmm", 1.1e3 * cad->apart);
+    sb_app_error_choose(error, cad->apart > 0 && cad->apart < CLOSABLE ? "join" : NULL, join,
+                        "contains no closed outline%s%s", *why != '\0' ? "; " : "", why);
     g_clear_pointer(&cad, sb_cad_free);
   }
   return cad;

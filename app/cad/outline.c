@@ -188,15 +188,18 @@ static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
 
 // Appends the parts of `piece` above the axis; ends on it have y = 0 exactly.
 static void clip(GArray *out, SbCadPiece piece, double gap) {
-  piece.y0 = fabs(piece.y0) <= gap ? 0 : piece.y0;
-  piece.y1 = fabs(piece.y1) <= gap ? 0 : piece.y1;
+  // A circle that touches the axis within the gap does not cross it.
+  const SbArc circle = piece.bulge != 0 ? sb_cad_circle(&piece) : (SbArc){0};
+  const double dip = circle.radius - circle.centre[1], up = dip > 0 && dip <= gap ? dip : 0;
+  piece.y0 = fabs(piece.y0 + up) <= gap ? 0 : piece.y0 + up;
+  piece.y1 = fabs(piece.y1 + up) <= gap ? 0 : piece.y1 + up;
   double at[4] = {0, 1, 1, 1}; // where the piece is cut, as parts of its length
   int cuts = 1;
   if (piece.bulge == 0 && piece.y0 * piece.y1 < 0) {
     at[cuts++] = piece.y0 / (piece.y0 - piece.y1);
   } else if (piece.bulge != 0) {
     const SbArc arc = sb_cad_circle(&piece);
-    const double half = sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
+    const double half = up > 0 ? 0 : sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
     for (int side = -1; side <= 1 && half > 0; side += 2) {
       const double part = place_on(&piece, arc.centre[0] + side * half, 0, INFINITY);
       if (part > 1e-9 && part < 1 - 1e-9) {
@@ -340,14 +343,14 @@ static double top_of(const GArray *chain) {
 }
 
 // Warns about open chains, whose ends are pairs of points in `ends`: the largest distance from an
-// end to the nearest other one is what `join` would have to bridge.
+// end to the axis or the nearest other one is what `join` would have to bridge.
 static void note_open(SbCad *cad, const char *name, const GArray *ends) {
   typedef double Point[2];
   const Point *at = (const Point *)(void *)ends->data;
   const guint count = ends->len;
   double largest = 0; // squared
   for (guint i = 0; i < count; i++) {
-    double nearest = INFINITY;
+    double nearest = at[i][1] * at[i][1];
     for (guint k = 0; k < count; k++) {
       const double dx = at[i][0] - at[k][0], dy = at[i][1] - at[k][1], off = dx * dx + dy * dy;
       nearest = k != i && off < nearest ? off : nearest;
@@ -355,6 +358,7 @@ static void note_open(SbCad *cad, const char *name, const GArray *ends) {
     largest = fmax(largest, nearest);
   }
   char gap[SB_NUMBER_SIZE];
+  cad->apart = fmax(cad->apart, sqrt(largest));
   sb_note_add(cad->warnings, "%s: %u line%s to no outline: ends are up to %s mm apart", name,
               count / 2, count > 2 ? "s that close" : " that closes",
               sb_number_round(gap, 1e3 * sqrt(largest), 3));

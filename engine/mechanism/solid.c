@@ -7,6 +7,10 @@
 #include <math.h>
 #include <string.h>
 
+// What an arc that touches the axis may dip below it where drawings are rounded to 1e-11 m: the
+// errors of its height and of its radius.
+static const double ROUNDED = 2e-11;
+
 // One piece of the outline.
 typedef struct {
   double x0, r0, x1, r1;
@@ -207,7 +211,7 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
       return sb_fail(report, SB_ERROR_INPUT, "piece %zu of the profile has no length", i);
     }
     const double bottom[2] = {s.cx, s.cr - s.radius};
-    if (s.arc && bottom[1] < -tiny &&
+    if (s.arc && bottom[1] < -fmax(tiny, ROUNDED) &&
         place_on(&s, bottom) * fabs(s.sweep) <= fabs(s.sweep) + 1e-9) {
       return sb_fail(report, SB_ERROR_INPUT, "arc %zu of the profile dips below the axis", i);
     }

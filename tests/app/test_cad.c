@@ -209,14 +209,14 @@ static void test_refused(void) {
   // Lines that close to nothing; a unit that is no length.
   g_autoptr(GString) open = drawing_begin(4);
   drawing_line(open, "0", 0, 1, 2, 3);
-  drawing_line(open, "0", 2, 3, 4, 1);
+  drawing_line(open, "0", 2, 3, 4, 1); // the axis is as near as that
   drawing_end(open);
   GError *error = NULL;
   g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &millimetres, &error));
   g_assert_cmpstr(
       error->message, ==,
       "a.dxf: contains no closed outline; 0: 1 line that closes to no outline: ends are up "
-      "to 4 mm apart");
+      "to 1 mm apart");
   g_clear_error(&error);
   g_assert_null(sb_cad_parse_dxf(open->str, open->len, "a.dxf", &wrong, &error));
   g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
