@@ -26,24 +26,25 @@ enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTE
 enum { HEAD_BYTES = 1 << 16 }; // looked at for the encoding
 
 const char *const sb_text_table_encodings[] = {"any",      "utf-8",     "latin-1", "utf-16le",
-                                               "utf-16be", "shift-jis", NULL};
+                                               "utf-16be", "shift-jis", "gbk",     NULL};
 
 // ---- Bytes ----
 
-// Whether text that is not UTF-8 is Shift-JIS rather than Windows-1252: pairs of bytes only, of
-// which some begin as kana and common characters do, where Windows-1252 has rare signs.
-static bool is_shift_jis(const guint8 *bytes, size_t length) {
-  size_t japanese = 0;
+// Whether text that is not UTF-8 is Shift-JIS, or GBK, rather than Windows-1252: pairs of bytes
+// only, of which some begin where Windows-1252 has rare signs, or all have two bytes beyond 0xa0.
+static bool is_paired(const guint8 *bytes, size_t length, bool gbk) {
+  size_t common = 0;
   for (size_t i = 0; i < length; i++) {
-    const guint8 c = bytes[i], next = i + 1 < length ? bytes[i + 1] : 0x40;
-    const bool pair = (c >= 0x81 && c <= 0x9f) || (c >= 0xe0 && c <= 0xfc);
-    if (pair && (next < 0x40 || next == 0x7f || next > 0xfc)) {
+    const guint8 c = bytes[i], next = i + 1 < length ? bytes[i + 1] : 0xa1;
+    const bool pair = gbk ? c >= 0x80 : (c >= 0x81 && c <= 0x9f) || (c >= 0xe0 && c <= 0xfc);
+    const bool good = gbk ? MIN(c, next) > 0xa0 : next >= 0x40 && next != 0x7f && next <= 0xfc;
+    if (pair && !good) {
       return false;
     }
-    japanese += pair && c <= 0x9f;
+    common += pair && (gbk || c <= 0x9f);
     i += pair;
   }
-  return japanese >= 2;
+  return common >= 2;
 }
 
 // From the first `looked` of `length` bytes.
@@ -63,9 +64,10 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
   const char *bad = NULL;
   const bool good = g_utf8_validate((const char *)bytes, (gssize)looked, &bad) ||
                     (looked < length && (const char *)bytes + looked - bad < 4);
-  return good                          ? SB_TEXT_TABLE_UTF8
-         : is_shift_jis(bytes, looked) ? SB_TEXT_TABLE_SHIFT_JIS
-                                       : SB_TEXT_TABLE_LATIN1;
+  return good                              ? SB_TEXT_TABLE_UTF8
+         : is_paired(bytes, looked, false) ? SB_TEXT_TABLE_SHIFT_JIS
+         : is_paired(bytes, looked, true)  ? SB_TEXT_TABLE_GBK
+                                           : SB_TEXT_TABLE_LATIN1;
 }
 
 // Finds the encoding, unless it is known, and the ends of lines.
@@ -134,7 +136,7 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
       shape.numeric |= bit;
     } else if (!dialect->matrix && sb_text_table_clock(&clock, &cell)) {
       shape.clocks |= bit;
-    } else if (cell.length > 0) {
+    } else if (!sb_text_table_void(&cell)) {
       shape.texts |= bit;
     }
     shape.cells = cell.length > 0 ? i + 1 : shape.cells;
@@ -234,7 +236,7 @@ static bool accept(const SbTextTable *table, const Sample *sample, const Fit *be
 // The best fit of all that are wished for; false with an issue.
 static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *sample,
                          const SbTextTableDialect *wish, GPtrArray *issues) {
-  static const char separators[] = {'\t', ';', ',', ' '}, marks[] = {'.', ','};
+  static const char separators[] = {'\t', ';', ',', '|', ' '}, marks[] = {'.', ','};
   bool quoted = false;
   for (guint i = 0; i < sample->line->len; i++) {
     quoted |= strchr(((GString *)sample->line->pdata[i])->str, '"') != NULL;
@@ -270,7 +272,7 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
         issues, table->file->shown, 0, NULL, NULL, "%s",
         wish->matrix
             ? "contains no numbers"
-            : "has no rows of two numbers or more, separated by tab, semicolon, comma or blank");
+            : "has no rows of two numbers or more, separated by tab, semicolon, comma, | or blank");
   }
   return rival.score == 0 || accept(table, sample, best, &rival, issues);
 }

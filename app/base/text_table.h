@@ -2,7 +2,7 @@
 // Separator, decimal mark, encoding, first row, names and units of the columns are recognised from
 // the file; the caller can specify them instead.
 //
-// Cells are separated by tab, semicolon, comma or blanks, and may be in double quotes. Numbers
+// Cells are separated by tab, semicolon, comma, | or blanks, and may be in double quotes. Numbers
 // have a decimal point or comma, may have the other one (or an apostrophe or blank) between
 // thousands, may have a typographic minus, and are rounded once: the same digits give the same
 // double in every dialect. A time can be a time of day, 10:15:00.25, with or without a date. Lines
@@ -31,7 +31,8 @@ typedef enum {
   SB_TEXT_TABLE_LATIN1, // also Windows-1252, for letters and µ
   SB_TEXT_TABLE_UTF16LE,
   SB_TEXT_TABLE_UTF16BE,
-  SB_TEXT_TABLE_SHIFT_JIS
+  SB_TEXT_TABLE_SHIFT_JIS,
+  SB_TEXT_TABLE_GBK
 } SbTextTableEncoding;
 
 // Names of the encodings for users, "any" first, ended by NULL.
@@ -40,7 +41,7 @@ extern const char *const sb_text_table_encodings[];
 // Format of a table.
 typedef struct {
   SbTextTableEncoding encoding;
-  char separator; // '\t', ';', ',', or ' ' for blanks; 0: to be recognised
+  char separator; // '\t', ';', ',', '|', or ' ' for blanks; 0: to be recognised
   char decimal;   // '.' or ','; 0: to be recognised
   char thousands; // only recognised: '.' or ','; 0: neither
   bool matrix;    // all cells are numbers or void (NaN); then one column is enough

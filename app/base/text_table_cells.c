@@ -66,6 +66,7 @@ bool sb_text_table_cell(SbTextTableCell *cell, const char **at, const char *end,
   }
   const char *const first = c;
   c = skip_quoted(c, end, separator);
+  c += separator == ' ' && end - c >= 7 && g_ascii_strncasecmp(c, "no data", 7) == 0 ? 7 : 0;
   while (c < end && !ends_cell(*c, separator)) {
     c++;
   }
@@ -125,11 +126,10 @@ static size_t group_mark(const char *c, const char *end, char thousands) {
   return digit < end && g_ascii_isdigit(*digit) ? 0 : length;
 }
 
-// Whether an instrument writes this where it has no value.
-static bool is_void(const SbTextTableCell *cell) {
-  static const char *const words[] = {"",        "nan",     "-nan",   "bad", "void", "nodata",
-                                      "null",    "inf",     "-inf",   "*",   "***",  "---",
-                                      "1.#qnan", "-1.#ind", "masked", NULL};
+bool sb_text_table_void(const SbTextTableCell *cell) {
+  static const char *const words[] = {"",       "nan",     "-nan", "bad",     "void",    "nodata",
+                                      "null",   "inf",     "-inf", "*",       "***",     "---",
+                                      "masked", "no data", "n/a",  "1.#qnan", "-1.#ind", NULL};
   const char *const *word = words;
   while (*word != NULL && (strlen(*word) != cell->length ||
                            g_ascii_strncasecmp(cell->text, *word, cell->length) != 0)) {
@@ -143,7 +143,7 @@ static bool is_void(const SbTextTableCell *cell) {
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw) {
   const char *c = cell->text, *const end = c + cell->length;
-  if (dialect->matrix && is_void(cell)) {
+  if (dialect->matrix && sb_text_table_void(cell)) {
     *out = NAN;
     return true;
   }

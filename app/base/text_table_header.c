@@ -19,6 +19,7 @@ static const struct {
 const char *sb_text_table_unit(const char *text) {
   g_auto(GStrv) parts = g_strsplit(text, "\xce\xbc", -1); // the other letter that looks like a µ
   g_autofree char *plain = g_strstrip(g_strjoinv("\xc2\xb5", parts));
+  plain[strlen(plain) - (g_str_has_suffix(plain, ".") && plain[1] != '\0')] = '\0';
   g_autofree char *folded = g_utf8_strdown(plain, -1);
   g_autofree char *entry = g_strconcat("|", folded, "|", NULL);
   const bool word = *folded != '\0' && strchr(folded, '|') == NULL;
@@ -107,8 +108,9 @@ static char **cells_by(const char *line, size_t length, char separator) {
   for (size_t i = 0; i < cells; i++) {
     add_cell(out, cell[i].text, cell[i].length);
     char *text = out->pdata[out->len - 1];
-    // A unit between blanks is part of the name before it.
-    if (separator == ' ' && out->len > 1 && *text != '\0' && strchr("[(", *text) != NULL) {
+    // A unit between blanks is part of the name before it, unless that is a unit too.
+    if (separator == ' ' && out->len > 1 && memchr("[(", *text, 2) != NULL &&
+        memchr("[(", *(char *)out->pdata[out->len - 2], 2) == NULL) {
       g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
       g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
       g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
@@ -129,7 +131,7 @@ static char **cells_by(const char *line, size_t length, char separator) {
 // With the separator of the rows; if that gives another number of cells than the rows have, with
 // the first one that gives it.
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line) {
-  static const char separators[] = {'\t', ';', ',', '\0'};
+  static const char separators[] = {'\t', ';', ',', '|', '\0'};
   size_t length = MIN(line->len, HEADER_BYTES), skip = 0;
   while (skip < length && memchr("#%! ", line->str[skip], skip > 0 ? 4 : 3) != NULL) {
     skip++;
@@ -161,7 +163,8 @@ static bool are_units(char *const *cells) {
 static bool names_columns(const SbTextTable *table, char *const *cells) {
   size_t texts = 0, numbers = 0, count = 0;
   for (; cells[count] != NULL; count++) {
-    texts += count < table->columns && *cells[count] != '\0';
+    const SbTextTableCell cell = {cells[count], strlen(cells[count])};
+    texts += count < table->columns && !sb_text_table_void(&cell);
   }
   for (size_t i = 0; i < table->columns; i++) {
     numbers += table->column[i].numeric || table->column[i].clock;

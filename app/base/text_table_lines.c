@@ -41,9 +41,10 @@ static void convert(GString *line, SbTextTableEncoding encoding) {
   gsize length;
   g_autofree char *old = g_strndup(line->str, line->len);
   const gsize old_length = line->len;
-  g_autofree char *known =
-      g_convert(old, (gssize)old_length, "UTF-8",
-                encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252" : "CP932", NULL, &length, NULL);
+  const char *from = encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252"
+                     : encoding == SB_TEXT_TABLE_GBK  ? "GB18030"
+                                                      : "CP932";
+  g_autofree char *known = g_convert(old, (gssize)old_length, "UTF-8", from, NULL, &length, NULL);
   g_string_truncate(line, 0);
   g_string_append_len(line, known, known != NULL ? (gssize)length : 0);
   for (gsize i = 0; known == NULL && i < old_length; i++) {
@@ -78,8 +79,7 @@ const GString *sb_text_table_next(SbTextTableLines *lines) {
   while (lines->line->len > 0 && lines->line->str[lines->line->len - 1] == '\r') {
     g_string_truncate(lines->line, lines->line->len - 1);
   }
-  const bool old =
-      lines->encoding == SB_TEXT_TABLE_LATIN1 || lines->encoding == SB_TEXT_TABLE_SHIFT_JIS;
+  const bool old = lines->encoding != SB_TEXT_TABLE_UTF8 && !wide;
   if (old && high && !g_utf8_validate(lines->line->str, (gssize)lines->line->len, NULL)) {
     convert(lines->line, lines->encoding); // programs mix encodings
   }

@@ -42,6 +42,9 @@ bool sb_text_table_cell(SbTextTableCell *cell, const char **at, const char *end,
 // ignored, as are empty ones at the end.
 size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t length, char separator);
 
+// Returns whether a cell is empty or has a word that instruments write where they have no value.
+bool sb_text_table_void(const SbTextTableCell *cell);
+
 // Bits that state which marks numbers have.
 enum {
   SB_TEXT_TABLE_SAW_DECIMAL = 1,

@@ -47,7 +47,7 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
     const size_t at = column[k];
     SbTextTableClock clock;
     row[k] = NAN;
-    if (at >= cells || cell[at].length == 0) {
+    if (at >= cells || sb_text_table_void(&cell[at])) {
       continue;
     }
     bool read;

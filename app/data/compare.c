@@ -8,13 +8,12 @@
 
 static void add(SbLoop *loop, int way, double displacement, double force) {
   size_t *count = &loop->count[way];
-  const double last = *count > 0 ? loop->displacement[way][*count - 1] : NAN;
+  const double last = *count > 0 ? loop->displacement[way][*count - 1] : way ? INFINITY : -INFINITY;
   // Only on: where the stem sticks or jumps back, the loop has no one force.
-  if (*count > 0 && !(way == 0 ? displacement > last : displacement < last)) {
-    return;
+  if (way == 0 ? displacement > last : displacement < last) {
+    loop->displacement[way][*count] = displacement;
+    loop->force[way][(*count)++] = force;
   }
-  loop->displacement[way][*count] = displacement;
-  loop->force[way][(*count)++] = force;
 }
 
 bool sb_loop_take(SbLoop *loop, const SbRun *run) {

@@ -15,18 +15,19 @@ const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "forc
 static const struct {
   const char *si;
   double most;       // either way, SI
-  const char *words; // parts of a column's name in small letters; those in quotes are words of it
+  const char *words; // pattern of a column's name
   const char *alias; // units that mean another one in this column: "g gf" is gram-force
   const char *units; // usual units, one a line
 } channels[SB_CHANNELS] = {
-    {"s", 1e9, "time|zeit|temps|tiempo|tempo|'t'|seconds|'sec'|時間|时间", "", "s\nms\nmin"},
+    {"s", 1e9, "time|zeit|temps|ti?empo|^\\W*t\\W*$|seconds|\\bsec\\b|時間|时间", "", "s\nms\nmin"},
     {"m", 0.2,
-     "displ|'disp'|weg|position|extension|travel|stroke|'hub'|placement|course|crosshead|travers|"
-     "deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|stauchung|"
-     "verformung|変位|位移|'s'|'x'",
+     "displ|\\bdisp\\b|weg|position|extension|travel|stroke|\\bhub\\b|placement|course|crosshead|"
+     "travers|deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|"
+     "stauchung|verformung|変位|位移|^\\W*[sx]\\W*$",
      "", "mm\nµm\nin"},
     {"N", 1e5,
-     "force|kraft|'load'|'last'|effort|'charge'|carga|carico|fuerza|forza|荷重|試験力|'f'",
+     "force|kraft|\\bload\\b|\\blast\\b|effort|\\bcharge\\b|carga|carico|fuerza|forza|荷重|試験力|"
+     "^\\W*f\\W*$",
      "g gf kg kgf lb lbf oz ozf", "N\nkN\ngf\nkgf\nlbf"},
 };
 
@@ -47,24 +48,10 @@ void sb_measured_free(SbMeasured *measured) {
 
 // ---- Columns ----
 
-// Whether a column's name has one of the channel's words. A word of one letter is the whole name.
+// Whether a column's name has one of the channel's words.
 static bool name_fits(const char *name, SbChannel channel) {
-  g_auto(GStrv) words = g_strsplit(channels[channel].words, "|", -1);
-  g_autofree char *folded = g_utf8_strdown(name, -1);
-  for (char *c = folded; *c != '\0'; c++) {
-    *c = (*c & 0x80) != 0 || g_ascii_isalnum(*c) ? *c : ' ';
-  }
-  g_autofree char *spaced = g_strdup_printf(" %s ", g_strstrip(folded));
-  for (char **word = words; *word != NULL; word++) {
-    const size_t length = strlen(*word);
-    if (**word == '\'') {
-      (*word)[0] = (*word)[length - 1] = ' ';
-    }
-    if (strstr(spaced, *word) != NULL && (**word != ' ' || length != 3 || strlen(folded) == 1)) {
-      return true;
-    }
-  }
-  return false;
+  g_autofree char *spaced = g_strdelimit(g_strdup(name), "_", ' ');
+  return g_regex_match_simple(channels[channel].words, spaced, G_REGEX_CASELESS, 0);
 }
 
 static bool unit_scale(double *scale, const char *unit, SbChannel channel) {
@@ -122,13 +109,11 @@ static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
   const bool clock = column->clock && channel == SB_CHANNEL_TIME;
   double scale;
   const bool kind = clock || unit_scale(&scale, column->unit, channel);
-  const bool foreign = strlen(column->name) < 3 || !g_str_is_ascii(column->name);
-  bool known = false;
-  for (int c = 0; c < SB_CHANNELS; c++) {
-    known |= name_fits(column->name, (SbChannel)c);
-  }
+  const bool known = name_fits(column->name, SB_CHANNEL_TIME) ||
+                     name_fits(column->name, SB_CHANNEL_DISPLACEMENT) ||
+                     name_fits(column->name, SB_CHANNEL_FORCE);
   return !column->numeric && !clock          ? FIT_NONE
-         : !name_fits(column->name, channel) ? (kind && foreign && !known ? FIT_UNIT : FIT_NUMBER)
+         : !name_fits(column->name, channel) ? (kind && !known ? FIT_UNIT : FIT_NUMBER)
          : kind                              ? FIT_NAME_UNIT
          : *column->unit == '\0'             ? FIT_NAME
                                              : FIT_NAME_OTHER;
@@ -149,18 +134,12 @@ static guint64 find_columns(const SbTextTable *table, SbChannel channel, int las
   return columns;
 }
 
-// Whether two names are equal but for the number of a specimen.
+// Whether two names are equal but for the number or letter of a specimen.
 static bool same_name(const char *a, const char *b) {
-  while (*a != '\0' || *b != '\0') {
-    if (*a != '\0' && !g_ascii_isalpha(*a) && (*a & 0x80) == 0) {
-      a++;
-    } else if (*b != '\0' && !g_ascii_isalpha(*b) && (*b & 0x80) == 0) {
-      b++;
-    } else if (*a++ != *b++) {
-      return false;
-    }
-  }
-  return true;
+  g_autoptr(GRegex) lone = g_regex_new("\\PL|(?<!\\pL)\\pL(?!\\pL)", 0, 0, NULL);
+  g_autofree char *one = g_regex_replace_literal(lone, a, -1, 0, "", 0, NULL);
+  g_autofree char *other = g_regex_replace_literal(lone, b, -1, 0, "", 0, NULL);
+  return g_strcmp0(one, other) == 0;
 }
 
 // Whether columns of displacement and force are those of several specimens side by side: pairs in

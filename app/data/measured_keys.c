@@ -3,11 +3,11 @@
 
 #include <string.h>
 
-static const char *const separator_names[] = {"comma", "semicolon", "tab", "blank", NULL};
+static const char *const separator_names[] = {"comma", "semicolon", "tab", "bar", "blank", NULL};
 static const char *const decimal_names[] = {"point", "comma", NULL};
 const char *const sb_measured_directions[] = {"as-is", "force", "displacement", "both", NULL};
 // Their characters; the first one, of an absent key, is to be recognised.
-static const char separators[] = "\0,;\t ", decimals[] = "\0.,";
+static const char separators[] = "\0,;\t| ", decimals[] = "\0.,";
 
 size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
                         GPtrArray *issues) {
@@ -34,12 +34,9 @@ bool sb_measured_dialect(SbTextTableDialect *wish, const SbData *data, GPtrArray
   return issues->len == before;
 }
 
-static const char *separator_name(const SbMeasured *m) {
-  return separator_names[strchr(separators + 1, m->dialect.separator) - separators - 1];
-}
-
-static const char *decimal_name(const SbMeasured *m) {
-  return decimal_names[strchr(decimals + 1, m->dialect.decimal) - decimals - 1];
+// Returns the name of a mark.
+static const char *name_of(const char *const *names, const char *marks, char mark) {
+  return names[strchr(marks + 1, mark) - marks - 1];
 }
 
 char *sb_measured_layout(const SbMeasured *m, bool units) {
@@ -53,8 +50,10 @@ char *sb_measured_layout(const SbMeasured *m, bool units) {
 
 char *sb_measured_keys(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
-  g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n", separator_name(m),
-                         decimal_name(m), sb_text_table_encodings[m->dialect.encoding]);
+  g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n",
+                         name_of(separator_names, separators, m->dialect.separator),
+                         name_of(decimal_names, decimals, m->dialect.decimal),
+                         sb_text_table_encodings[m->dialect.encoding]);
   g_autofree char *columns = sb_measured_layout(m, false), *units = sb_measured_layout(m, true);
   g_string_append_printf(out, "columns = %s\nunits = %s\n", columns, units);
   if (m->speed > 0) {
@@ -78,9 +77,10 @@ char *sb_measured_keys(const SbMeasured *m) {
 char *sb_measured_text(const SbMeasured *m) {
   static const char *const hows[] = {"not in the data, used unchanged", "found", "as specified"};
   GString *out = g_string_new(NULL);
-  g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n", separator_name(m),
-                         decimal_name(m), sb_text_table_encodings[m->dialect.encoding],
-                         m->header_lines);
+  g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n",
+                         name_of(separator_names, separators, m->dialect.separator),
+                         name_of(decimal_names, decimals, m->dialect.decimal),
+                         sb_text_table_encodings[m->dialect.encoding], m->header_lines);
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].at > 0) {
       g_string_append_printf(out, "%s: column %zu \"%s\" in %s (%s)\n", sb_channel_names[c],

@@ -64,6 +64,20 @@ def machines(loop, draw):
         loop, lambda t, x, f: f'{t:.5f}\t{x:.5f}\t{f:.5f}')).encode('utf-16'), 1
     yield 'blank columns', '# bench\nTime (s)  Position (mm)  Force (kN)\n' + rows(
         loop, lambda t, x, f: f'  {t:9.5f}  {x:9.5f}  {f / 1e3:12.8f}'), 1
+    yield 'names of a language that is not known', 'Tijd (s);Indrukking (mm);Kracht (N);Temp. (°C)\n' + rows(
+        loop, lambda t, x, f: f'{comma(t)};{comma(x)};{comma(f)};23,5'), 1
+    yield 'bars', '|Time|Travel|Force|\n|---|---|---|\n|(Sek.)|(in.)|(N)|\n' + rows(
+        loop, lambda t, x, f: f'|{t:.5f}|{x / 25.4:.7f}|{f:.5f}|'), 1
+    yield 'GBK', ('试验日期,2026年3月5日\n时间(秒),变形(毫米),负荷(牛)\n' + rows(
+        loop, lambda t, x, f: f'{t:.5f},{x:.5f},{f:.5f}')).encode('gbk'), 1
+    yield 'Cyrillic units', 'Время, с;Перемещение, мм;Нагрузка, кН\n' + rows(
+        loop, lambda t, x, f: f'{comma(t)};{comma(x)};{comma(f / 1e3, 8)}'), 1
+    yield 'specimens with letters', 'Weg_A [mm];Kraft_A [N];Weg_B [mm];Kraft_B [N]\n' + rows(
+        loop, lambda t, x, f: f'{comma(x)};{comma(f)};{comma(x / 2)};{comma(f / 3)}'), 1
+    yield 'no value in the first row', 'Time (s),Extension (mm),Load (N)\n0.0,0.0,NaN\n' + rows(
+        loop, lambda t, x, f: f'{t:.5f},{x:.5f},{f:.5f}'), 1
+    yield 'blanks and a row of units in brackets', 'Time Weg Kraft\n(s) (mm) (N)\n' + rows(
+        loop, lambda t, x, f: f'{t:.5f} {x:.5f} {f:.5f}'), 1
     yield 'slashes and other units', 'Zeit / ms;Weg / µm;Kraft / cN\n' + rows(
         loop, lambda t, x, f: f'{comma(1e3 * t, 2)};{comma(1e3 * x, 2)};{comma(1e2 * f, 3)}'), 1
 
@@ -81,6 +95,10 @@ def surfaces(z, step, draw):
         '# Unité des valeurs : nm\n' + matrix()
     yield 'Italian', f'# Canale: Z\n# Larghezza: {sizes[0]} µm\n# Altezza: {sizes[1]} µm\n' \
         '# Unità dei valori: nm\n' + matrix()
+    yield 'Spanish', f'# Canal: Z\n# Anchura: {sizes[0]} µm\n# Altura: {sizes[1]} µm\n' \
+        '# Unidades de los valores: nm\n' + matrix()
+    yield 'multiplier', f'Width: {sizes[0]} um\nHeight: {sizes[1]} um\nZ unit: nm\nZ multiplier: {factor}\n' \
+        + matrix('.', factor)
     yield 'factor', f'Width: {sizes[0]} um\nHeight: {sizes[1]} um\nZ unit: nm\nZ factor: {factor}\n' + matrix('.', factor)
     yield 'surface data file', f'aISO-1.0\nNumPoints = {width}\nNumProfiles = {height}\nXscale = {step!r}\nYscale = {step!r}\n' \
         'Zscale = 1e-9\nZresolution = -1\nCompression = 0\nDataType = 7\nCheckType = 0\n*\n' + matrix() + '*\n'

@@ -15,9 +15,9 @@
 // Measured loops ---------------------------------------------------------------------------------
 
 static const SbImportRow measured_rows[] = {
-    {"separator", N_("Separator"), "comma|semicolon|tab|blank"},
+    {"separator", N_("Separator"), "comma|semicolon|tab|bar|blank"},
     {"decimal", N_("Decimal mark"), "point|comma"},
-    {"encoding", N_("Encoding"), "utf-8|latin-1|utf-16le|utf-16be|shift-jis"},
+    {"encoding", N_("Encoding"), "utf-8|latin-1|utf-16le|utf-16be|shift-jis|gbk"},
     {"columns", N_("Columns"), NULL},
     {"units", N_("Units"), NULL},
     {"speed", N_("Speed, of the time alone"), NULL},
