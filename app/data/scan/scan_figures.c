@@ -86,13 +86,13 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
   if (choices->form <= SB_FORM_PLANE && done->curved_share > 0.5) {
     sb_warn(list, "surface-form", 0,
             "a quadratic form would take %.0f %% of the variance about the plane: is it the "
-            "part's shape? (--form quadratic or cylinder)",
+            "part's shape? (form quadratic or cylinder)",
             100 * done->curved_share);
   }
   if (done->suspicious > 0) {
     sb_warn(
         list, "surface-outliers", 0,
-        "%zu points are beyond %g robust deviations and are included (--outliers %g excludes them)",
+        "%zu points are beyond %g robust deviations and are included (outliers: %g excludes them)",
         done->suspicious, SB_HEIGHTS_SUSPICIOUS, SB_HEIGHTS_SUSPICIOUS);
   }
   const double missing = (double)(done->missing + done->outliers) / points;
@@ -107,7 +107,7 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
   if (fine > 0.5) {
     sb_warn(list, "surface-sampling", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "%.0f %% of m4 is in waves of fewer than 8 points: density and radius of asperities "
-            "are those of the sampling, or of noise (--cutoff-short)",
+            "are those of the sampling, or of noise (cutoff of short waves)",
             100 * fine);
   }
   const double ratio = out->spectrum.moment[2] / f->moment[2];

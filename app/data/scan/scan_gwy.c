@@ -221,7 +221,7 @@ static bool apply_mask(SbScan *out, const Channel *channel, GError **error) {
   }
   if (masked > 0) {
     sb_note_add(out->notes,
-                "%" G_GUINT64_FORMAT " masked points are treated as missing (--ignore-mask)",
+                "%" G_GUINT64_FORMAT " masked points are missing, unless masks are ignored",
                 masked);
   }
   return true;

@@ -96,14 +96,14 @@ static Header header_of(const SbScanText *text) {
   h.rows = find(text, "nrows|ypixels|rows|lines|pixelsy|zeilen|lignes|righe")->number;
   h.step_x = length_of(find(text, "cellsize|dx|xspacing|xstep|xscale" ANY_STEP), &h.bare);
   h.step_y = length_of(find(text, "cellsize|dy|yspacing|ystep|yscale" ANY_STEP), &h.bare);
-  h.width = length_of(
-      find(text, "xlength|width|xsize|xreal|xrange|breite|largeur|larghezza|ancho*"), &h.bare);
+  h.width = length_of(find(text, "xlength|width|xsize|xreal|xrange|breite|largeur|larghezza|anch*"),
+                      &h.bare);
   h.height = length_of(
       find(text, "ylength|height|ysize|yreal|yrange|höhe|hauteur|altezza|altura|alto"), &h.bare);
   h.missing = find(text, "nodatavalue|nodata|fehlwert")->number;
   h.vertical = sb_scan_length(
       find(text, "zunit*|valueunit*|heightunit*|unitz|*einheit*wert*|wert*einheit*|*unit*val*|"
-                 "einheitz|zeinheit|unitéz|unitàz")
+                 "*unid*valor*|einheitz|zeinheit|unitéz|unitàz|unidadz")
           ->value);
   h.lateral = sb_scan_length(find(text, "xunit*|lateralunit*|xyunit*|unitxy|unitx|einheitx*|"
                                         "xeinheit|unitéx*|unitàx*")
@@ -111,7 +111,7 @@ static Header header_of(const SbScanText *text) {
   // A factor of the written heights, with its own unit or in the unit of heights.
   const SbScanEntry *factor = find(
       text, "zfactor|zscale|zscaling|heightfactor|heightscale|factor*|scalefactor|*skalierung*|"
-            "höhenfaktor|zfaktor|facteur*|fattore*|bit2nm|*faktor");
+            "höhenfaktor|zfaktor|facteur*|fattore*|*multipl*|bit2nm|*faktor");
   h.factor = factor->number;
   h.vertical = factor->unit > 0 && isfinite(h.factor) ? factor->unit : h.vertical;
   // SPIP's lengths are in nanometres; so are its heights times Bit2nm where no unit is given.
