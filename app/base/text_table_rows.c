@@ -31,7 +31,7 @@ static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
 // The cells of a line.
 typedef struct {
   size_t cells;
-  bool any, good;    // a wanted cell has a number; all wanted cells do, or are empty
+  bool any, good;    // a wanted cell has a number; all wanted cells do, or have no value
   size_t unreadable; // wanted cells that are not empty and have none
 } Line;
 
@@ -47,7 +47,7 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
     const size_t at = column[k];
     SbTextTableClock clock;
     row[k] = NAN;
-    if (at >= cells || sb_text_table_void(&cell[at])) {
+    if (at >= cells || cell[at].length == 0) {
       continue;
     }
     bool read;
@@ -58,7 +58,7 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
       wrong = "is ambiguous: the date advances by a day or by a month, write it as 2026-02-03";
     }
     out->any |= read;
-    out->good &= read;
+    out->good &= read || sb_text_table_void(&cell[at]);
     out->unreadable += !read;
   }
   return wrong;
@@ -112,7 +112,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
         value[k][out->rows] = row[k];
       }
       out->rows += wrong == NULL;
-    } else if (line.cells > 0 && (like || !line.good)) { // not empty in these columns only
+    } else if (line.cells > 0 && (like || line.unreadable > 0 || !line.good)) { // not empty
       const bool damaged = memchr(text->str, '\0', text->len) != NULL ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
       *(damaged ? &out->damaged : &out->skipped) += 1;
