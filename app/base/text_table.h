@@ -91,7 +91,7 @@ typedef struct {
   size_t rows;     // rows in the arrays
   size_t damaged;  // rows left out: a cell cannot be read while others can, or contains a NUL
   size_t skipped;  // other lines between rows, left out
-  int left_line;   // number of the first line that was left out, from 1
+  int left_line;   // number of the first skipped line, from 1; if none is, of the first damaged row
   char *left_text; // its text, freed by g_free(); NULL: no line was left out
 } SbTextTableRows;
 

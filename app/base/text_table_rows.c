@@ -116,7 +116,8 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
       const bool damaged = memchr(text->str, '\0', text->len) != NULL ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
       *(damaged ? &out->damaged : &out->skipped) += 1;
-      if (out->left_text == NULL) {
+      if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
+        g_free(out->left_text);
         out->left_line = lines->number;
         out->left_text = sb_printable(text->str, text->len);
       }

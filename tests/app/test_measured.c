@@ -542,6 +542,24 @@ static void test_numbers(void) {
   }
 }
 
+// A damaged row before a line that is no row: the line that is named is the one that is no row.
+static void test_left_line(void) {
+  static const char text[] = "a;b\n1;2\n1;3\n1;\0002\n3;4\nabc;def\n5;6\n";
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autoptr(SbTextTable) table = sb_text_table_parse(text, sizeof text - 1, NULL, "x", issues);
+  g_assert_nonnull(table);
+  SbTextTableRows rows;
+  double *value[2];
+  g_assert_true(sb_text_table_read(&rows, value, table, (size_t[]){0, 1}, 2, issues));
+  g_assert_cmpuint(rows.damaged, ==, 1);
+  g_assert_cmpuint(rows.skipped, ==, 1);
+  g_assert_cmpint(rows.left_line, ==, 6);
+  g_assert_cmpstr(rows.left_text, ==, "abc;def");
+  g_free(value[0]);
+  g_free(value[1]);
+  g_free(rows.left_text);
+}
+
 // Clocks, past midnight too.
 static void test_clocks(void) {
   static const char text[] = "Time;x\n2026-02-03 23:59:59.50;1\n2026-02-04 00:00:01.25;2\n";
@@ -653,6 +671,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/time-alone", test_time_alone);
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/numbers", test_numbers);
+  g_test_add_func("/measured/left-line", test_left_line);
   g_test_add_func("/measured/clocks", test_clocks);
   g_test_add_func("/measured/files", test_files);
   g_test_add_func("/measured/document", test_document_moves);
