@@ -219,6 +219,19 @@ static void judge_stretch(SbFit *out, const SbFitProblem *in) {
           round || in->names == NULL ? "" : in->names->fitted);
 }
 
+// Only the ring model includes the groove's walls, which press a section without free volume
+// against the bore.
+static void judge_walls(SbFit *out, const SbFitProblem *in) {
+  const SbFitKind *kind = &models[in->model].kind;
+  if (!kind->section && !in->gasket && out->touches && out->gland_fill >= 1) {
+    sb_warn(
+        &out->warnings, "gland-overfilled", SB_CONTACT_IN_GLAND_WIDTH,
+        "the ring overfills its groove (gland fill %.3g %%): %s does not include the walls, and "
+        "its load is too small",
+        100.0 * out->gland_fill, kind->name);
+  }
+}
+
 // Every warning except that of a ring without contact means that a model is outside its range.
 static void judge_validity(SbFit *out) {
   out->valid = true;
@@ -239,6 +252,7 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
   fill_sizes(out, problem);
   status = models[problem->model].solve(out, problem, report);
   judge_stretch(out, problem);
+  judge_walls(out, problem);
   judge_validity(out);
   out->valid = out->valid && status == SB_OK;
   out->solver.wall_s = sb_clock_seconds() - start;

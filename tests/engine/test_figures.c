@@ -183,7 +183,8 @@ static void test_stretch(void) {
   }
 }
 
-// A ring that overfills its groove: models that do not know the walls cannot state that it seals.
+// A ring that overfills its groove: models that do not know the walls warn, and cannot state that
+// it seals or returns.
 static void test_overfilled(void) {
   for (int full = 0; full < 2; full++) {
     const Setting changes[] = {{SB_P_GLAND_AXIAL_WIDTH, full ? 1.4e-3 : 1.5e-3}};
@@ -193,6 +194,10 @@ static void test_overfilled(void) {
     const SbVerdict *seals = &sb_run_summary(run)->verdict[SB_VERDICT_SEALS];
     g_assert_cmpint(seals->ok, ==, full ? SB_ANSWER_UNKNOWN : SB_ANSWER_YES);
     g_assert_cmpint(strstr(seals->reason, "overfills") != NULL, ==, full);
+    const SbVerdict *returns = &sb_run_summary(run)->verdict[SB_VERDICT_RETURNS];
+    g_assert_cmpint(returns->ok, ==, full ? SB_ANSWER_UNKNOWN : SB_ANSWER_YES);
+    g_assert_cmpint(strstr(returns->reason, "overfills") != NULL, ==, full);
+    g_assert_cmpint(warned(&sb_run_summary(run)->warnings, "gland-overfilled"), ==, full);
     sb_run_destroy(run);
   }
 }

@@ -90,6 +90,19 @@ static void doubt(SbVerdict *of, const SbSummary *summary, double bound) {
   }
 }
 
+// Makes a yes unknown if a ring overfills a groove whose walls the fitment model does not include:
+// load and friction are then larger than computed.
+static void doubt_walls(SbVerdict *of, const SbModel *model, int seal) {
+  const double fill = model->seal[seal].gland_fill;
+  if (of->ok == SB_ANSWER_YES && !sb_fit_kind(model->fit)->section && fill >= 1) {
+    of->ok = SB_ANSWER_UNKNOWN;
+    sb_message(of->reason, SB_TEXT,
+               "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
+               "models.fit = %s does not include (ring does)",
+               sb_seal_name(seal), 100 * fill, sb_fit_kind(model->fit)->name);
+  }
+}
+
 static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int seal) {
   const SbSealState *of = &summary->seal[seal];
   SbSealPressure side = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
@@ -122,15 +135,7 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
                "short of the bore, which models.fit = %s cannot judge (ring can)",
                sb_seal_name(seal), -1e3 * left, sb_fit_kind(model->fit)->name);
   }
-  // Nor does it know the groove's walls.
-  const double fill = model->seal[seal].gland_fill;
-  if (out.ok == SB_ANSWER_YES && !sb_fit_kind(model->fit)->section && fill >= 1) {
-    out.ok = SB_ANSWER_UNKNOWN;
-    sb_message(out.reason, SB_TEXT,
-               "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
-               "models.fit = %s does not include (ring does)",
-               sb_seal_name(seal), 100 * fill, sb_fit_kind(model->fit)->name);
-  }
+  doubt_walls(&out, model, seal);
   // A section that jams blocks the stem; one that rolls seals, and is reported.
   const SbContacts *contact = &summary->contact[seal];
   for (int way = 0; way < 2; way++) {
@@ -170,7 +175,7 @@ static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
 }
 
 // Whether the stem returns: by its outcome and by the return margin, the figure that decides.
-static SbVerdict judge_return(const SbSummary *summary) {
+static SbVerdict judge_return(const SbSummary *summary, const SbModel *model) {
   const int figure = sb_figure_find("cycle.force_return_margin_N");
   const double value = summary->force_return_margin;
   SbVerdict out = {SB_ANSWER_UNKNOWN, figure, value, NAN, ""};
@@ -195,6 +200,8 @@ static SbVerdict judge_return(const SbSummary *summary) {
                           : "where the stem stops on its return, static friction exceeds the force "
                             "that pushes it back");
     doubt(&out, summary, 0);
+    doubt_walls(&out, model, SB_OUTER);
+    doubt_walls(&out, model, SB_INNER);
     break;
   }
   return out;
@@ -218,7 +225,7 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
       }
     }
   }
-  verdict[SB_VERDICT_RETURNS] = judge_return(summary);
+  verdict[SB_VERDICT_RETURNS] = judge_return(summary, model);
   if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
     const int press = sb_figure_find("cycle.force_press_N");
     verdict[SB_VERDICT_PRESSES] = (SbVerdict){SB_ANSWER_NO, press, NAN, NAN, ""};
