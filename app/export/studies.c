@@ -300,6 +300,7 @@ void sb_json_study(SbJson *json, const SbStudy *study) {
   sb_json_number(json, "error_estimate", study->error);
   sb_json_bool(json, "complete", study->complete);
   sb_json_count(json, "solves", study->solves);
+  sb_json_count(json, "work", study->work);
   sb_json_study_curves(json, study);
   put_table(json, study);
   sb_json_array(json, "marks");

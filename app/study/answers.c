@@ -89,9 +89,13 @@ SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestion
                                .figure = asked->figure,
                                .figure_count = asked->figures,
                                .start = start,
+                               .work_used = asked->work_used,
                                .cancelled = cancelled,
                                .data = data};
   SbReport report = {0};
+  if (asked->separate) {
+    sb_evaluator_forget(evaluator);
+  }
   const SbStatus status = sb_evaluator_ask(out->value, evaluator, &question, &report);
   if (asked->seen != NULL) { // each its own sample
     asked->seen(asked->data, sample, status, &report, evaluator);

@@ -34,6 +34,10 @@ typedef struct {
   // Ring states for the warm start of every sample; NULL: those of the base. `cold`: no warm start.
   const SbEvaluator *start;
   bool cold;
+  size_t work_used; // SbQuestion.work_used of every sample
+  // Every sample solves all contacts, also those that its thread has just solved: its number of
+  // solver steps then depends on the sample alone.
+  bool separate;
   // Receives each computed result in the thread that computed it, also of several threads at the
   // same time; may be NULL. `evaluator` has the sample's model and summary.
   void (*seen)(void *data, size_t sample, SbStatus status, const SbReport *report,

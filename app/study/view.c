@@ -44,6 +44,8 @@ static SbStatus answer(void *data, double *value, const SbStudyAsk *ask) {
                              .jobs = (int)g_get_num_processors(),
                              .start = ask->start,
                              .cold = ask->start == NULL,
+                             .work_used = ask->work_used,
+                             .separate = true,
                              .seen = ask->seen,
                              .progress = ask->progress,
                              .cancelled = ask->cancelled,

@@ -471,7 +471,7 @@ static SbStudy *make_rings(SbModel *model, double work_limit) {
 // interpolated within an error. With fewer the study has a gap.
 static void test_bridged(void) {
   SbModel model;
-  SbStudy *study = make_rings(&model, 350);
+  SbStudy *study = make_rings(&model, 3500);
   int pressures = 0;
   g_assert_cmpint(sscanf(study->models, "rings solved at %d", &pressures), ==, 1);
   g_test_message("%s", study->models);
@@ -480,7 +480,7 @@ static void test_bridged(void) {
   g_assert_true(study->complete);
   g_assert_cmpfloat(study->error, >, 0);
   g_free(study);
-  study = make_rings(&model, 100);
+  study = make_rings(&model, 1000);
   g_assert_false(study->complete);
   g_assert_null(strstr(study->models, "interpolated"));
   g_assert_nonnull(strstr(study->gap, "work limit"));
@@ -534,6 +534,41 @@ static void test_gap(void) {
   g_assert_false(study->complete);
   g_assert_nonnull(strstr(study->gap, "seal"));
   g_free(study);
+}
+
+// A study ends within its budget of work, with what it has finished, and names solver, seal and
+// place; each of its solves needs far less than the budget.
+static void test_budget(void) {
+  static const SbStudyKind kinds[] = {SB_STUDY_PROPELLANTS, SB_STUDY_TOLERANCE, SB_STUDY_FILM_LAW,
+                                      SB_STUDY_STRIBECK};
+  for (size_t i = 0; i < G_N_ELEMENTS(kinds); i++) {
+    SbParams params;
+    SbModel model;
+    size_t work = 0;
+    sb_params_init(&params);
+    g_assert_cmpint(sb_params_set(&params, SB_P_MODELS_FILM, SB_FILM_REYNOLDS, NULL), ==, SB_OK);
+    g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_TOLERANCE, 1e-2, NULL), ==, SB_OK);
+    for (int cut = 0; cut < 2; cut++) {
+      if (cut) {
+        const double limit = floor(0.7 * (double)work);
+        g_assert_cmpint(sb_params_set(&params, SB_P_OUTPUT_WORK_LIMIT, limit, NULL), ==, SB_OK);
+      }
+      g_assert_cmpint(sb_model_compile(&model, &params, NULL, NULL), ==, SB_OK);
+      SbStudy *study = make(kinds[i], &model);
+      g_test_message("%s: %zu steps; %s", sb_study_name(kinds[i]), study->work, study->gap);
+      g_assert_cmpint(study->complete, ==, !cut);
+      g_assert_cmpuint(study->work, <=, (size_t)model.work_limit);
+      g_assert_cmpuint(study->work, >, 0);
+      if (cut) {
+        g_assert_nonnull(strstr(study->gap, "work limit"));
+        g_assert_nonnull(strstr(study->gap, "film (reynolds), "));
+        g_assert_nonnull(strstr(study->gap, " seal, "));
+        g_assert_cmpuint(study->warnings.count, >, 0);
+      }
+      work = study->work;
+      g_free(study);
+    }
+  }
 }
 
 // Places solved side by side are those solved one after the other, to the bit, and a cancel ends
@@ -599,6 +634,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study/range", test_range);
   g_test_add_func("/study/side-by-side", test_side_by_side);
   g_test_add_func("/study/gap", test_gap);
+  g_test_add_func("/study/budget", test_budget);
   if (g_test_slow()) {
     g_test_add_func("/study/squeeze", test_squeeze);
     g_test_add_func("/study/leak-fine", test_leak_fine);

@@ -140,8 +140,10 @@ SbStatus sb_evaluator_ask(double *value, SbEvaluator *evaluator, const SbQuestio
     }
     // A caller with many questions asks them on parallel threads, except the one that they start
     // from.
-    const SbRunHooks hooks = {
-        .cancelled = question->cancelled, .data = question->data, .alone = !question->keep};
+    const SbRunHooks hooks = {.cancelled = question->cancelled,
+                              .data = question->data,
+                              .work_used = question->work_used,
+                              .alone = !question->keep};
     status = sb_run_execute(evaluator->run, &hooks, &own);
     if (question->keep) {
       sb_run_end_rings(evaluator->run);

@@ -370,8 +370,10 @@ static SbStatus execute_valve(SbRun *run, const SbRunHooks *hooks, SbReport *rep
 }
 
 void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks) {
-  run->own_work = (SbWork){
-      .limit = (size_t)run->model->work_limit, .cancelled = hooks->cancelled, .data = hooks->data};
+  const size_t limit = (size_t)run->model->work_limit;
+  run->own_work = (SbWork){.limit = limit > hooks->work_used ? limit - hooks->work_used : 0,
+                           .cancelled = hooks->cancelled,
+                           .data = hooks->data};
 }
 
 #ifdef SB_ASSERT_RUNS

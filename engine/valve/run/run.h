@@ -25,7 +25,8 @@ typedef struct {
   void (*progress)(void *data, double fraction, size_t frames);
   // True ends the run within 50 ms with SB_ERROR_CANCELLED; its frames so far remain. NULL: never.
   bool (*cancelled)(void *data);
-  void *data; // argument of both functions
+  void *data;       // argument of both functions
+  size_t work_used; // steps of output.work_limit that are not available to this run
   bool alone; // the run starts no thread of its own; false: it may solve the two seals concurrently
 } SbRunHooks;
 
@@ -123,7 +124,7 @@ const SbLifeActuation *sb_run_life(const SbRun *run, size_t *count);
 // `way`, SB_CYCLE_IN or SB_CYCLE_OUT (cycle.h), under the pressures in the middle of B-C or F-A.
 // The plan must have had SB_DEPTH_WHOLE for this seal and the run SB_OK; otherwise *out is
 // meaningless. The state is interpolated as the motion's friction is (speed_states.h). More states
-// are solved if needed; their errors, counts and warnings are added to the summary.
+// are solved if needed; their errors, counts, steps of work and warnings are added to the summary.
 // SB_ERROR_CANCELLED, SB_ERROR_MEMORY; SB_ERROR_NOT_CONVERGED if output.work_limit is exhausted.
 SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
                         SbReport *report);

@@ -181,7 +181,8 @@ struct SbRun {
   atomic_size_t published; // number of frames that readers may use
 };
 
-// Sets run->own_work to a new budget of output.work_limit steps that the hooks can cancel (run.c).
+// Sets run->own_work to a new budget of output.work_limit steps, without those that the hooks name
+// as used. The hooks can cancel it (run.c).
 void sb_run_begin_work(SbRun *run, const SbRunHooks *hooks);
 
 // Solves all states of the plan at run->speed, on a thread for each seal if rings are solved.

@@ -163,6 +163,7 @@ void sb_run_prefetch_speeds(SbRun *run, int seal, int chamber, int way, SbCounte
 SbStatus sb_run_sliding(SbSealState *out, SbRun *run, int seal, int way, double speed,
                         SbReport *report) {
   sb_run_state_at(out, run, seal, sb_run_mid_stroke_chamber(way), way, speed);
+  run->summary.work = run->work->done;
   return sb_run_close_speeds(run, report);
 }
 

@@ -91,7 +91,7 @@ bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report
     if (status == SB_ERROR_CANCELLED) {
       // The same sentence wherever the study was cancelled.
       (void)sb_fail(work->report, status, "the study was cancelled");
-    } else if (work->report != NULL) {
+    } else {
       *work->report = *report;
     }
   }
@@ -118,9 +118,22 @@ size_t sb_study_extra(const SbParamId **out, SbStudyKind kind) {
   return find(kind)->extras;
 }
 
+// A solver that failed outside a question ends the study: what it has is its result, with a gap.
+static void end_early(SbStudyWork *work) {
+  if (work->status == SB_ERROR_NOT_CONVERGED) {
+    const SbReport *why = work->report;
+    sb_study_gap(work->out, NAN, why->text);
+    sb_warn(&work->out->warnings, "study-gap-end", why->input, "the study ended early: %s",
+            why->text);
+    work->status = SB_OK;
+  }
+}
+
 SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
                        const SbStudyGrid *grid, const SbStudyHooks *hooks, SbReport *report) {
   const SbStudyDesign *design = find(kind);
+  SbReport own = {0};
+  report = report != NULL ? report : &own;
   memset(out, 0, sizeof *out);
   if (design == NULL) {
     return sb_fail(report, SB_ERROR_INPUT, "there is no study %d", (int)kind);
@@ -142,6 +155,9 @@ SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
   work->lo = range[0];
   work->hi = range[1];
   work->hooks = hooks != NULL ? *hooks : (SbStudyHooks){0};
+  work->budget = (SbWork){.limit = (size_t)model->work_limit,
+                          .cancelled = work->hooks.cancelled,
+                          .data = work->hooks.data};
   work->total = sb_study_cost(kind, model);
   work->status = sb_evaluator_create(&work->evaluator, report);
   if (work->status == SB_OK) {
@@ -160,6 +176,8 @@ SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
   for (int i = 0; i < 2 && work->largest[i] > 0; i++) {
     out->error = fmax(out->error, work->error[i] / work->largest[i]);
   }
+  end_early(work);
+  out->work = work->budget.done;
   sb_study_step(work, 1);
   sb_evaluator_destroy(work->evaluator);
   sb_film_solver_destroy(work->solver);

@@ -97,6 +97,7 @@ typedef struct {
   char note[SB_STUDY_NOTES][SB_TEXT]; // explanations, definitions, sources
   SbWarnings warnings;
   size_t solves; // number of solved fits and films
+  size_t work;   // solver steps, at most output.work_limit of the scene
   bool complete; // false: gaps because a solver did not converge
   // Where the first of those solvers failed, and why; empty if all converged.
   double gap_at; // abscissa; NaN: at none in particular
@@ -123,13 +124,14 @@ typedef struct {
   void *data;                                    // argument of both
 } SbStudyHooks;
 
-// Rows of a grid for which a study requests figures. The study fills it and calls
-// SbStudyGrid.answer(); all pointers are valid during that call. The three functions are never
-// NULL.
+// Rows of a grid for which a study requests figures. Every row solves all of its contacts. The
+// study fills it and calls SbStudyGrid.answer(); all pointers are valid during that call. The three
+// functions are never NULL.
 typedef struct {
   const double *value; // [rows][columns] values of SbStudyGrid.column in SI; NaN: as in the base
   size_t rows;         // number of rows
   const SbEvaluator *start; // SbQuestion.start for all rows; NULL: cold start
+  size_t work_used;         // SbQuestion.work_used for all rows
   // To be called once for each row, after it is computed, in any thread; several threads may call
   // it simultaneously for different rows. `status` and `report` (not NULL) are those of
   // sb_evaluator_ask() for the row, and `evaluator` is the one that was asked.
@@ -176,10 +178,10 @@ bool sb_study_has_grid(SbStudyKind kind);
 size_t sb_study_extra(const SbParamId **out, SbStudyKind kind);
 
 // Computes the study `kind` of the scene `model`. `grid` is required if sb_study_has_grid(kind),
-// else NULL. `hooks` may be NULL. If a solver fails at a point, the curves have a gap there, a
-// warning states why, `complete` is false, and the function returns SB_OK. SB_ERROR_INPUT: `kind`
-// is outside the enumeration. SB_ERROR_INFEASIBLE: the scene lacks what the study needs; the report
-// has the input. SB_ERROR_CANCELLED; errors of sb_model_hold(). After an error *out is not a
-// complete study.
+// else NULL. `hooks` may be NULL. If a solver fails at a point, or the study exhausts its own
+// budget of output.work_limit solver steps, the curves have a gap there, a warning states why,
+// `complete` is false, and the function returns SB_OK. SB_ERROR_INPUT: `kind` is outside the
+// enumeration. SB_ERROR_INFEASIBLE: the scene lacks what the study needs; the report has the input.
+// SB_ERROR_CANCELLED; errors of sb_model_hold(). After an error *out is not a complete study.
 SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
                        const SbStudyGrid *grid, const SbStudyHooks *hooks, SbReport *report);

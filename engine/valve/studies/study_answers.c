@@ -68,7 +68,7 @@ typedef struct {
   SbStatus status;
   SbReport report;
   int fit; // index of the model, -1: the values were refused
-  size_t rings, discs, films;
+  size_t rings, discs, films, work;
   double size[SB_SEAL_COUNT][2], error[2]; // loads and contact widths
   double film, force;                      // errors
 } Seen;
@@ -83,6 +83,7 @@ static Seen look(SbStatus status, const SbReport *report, const SbEvaluator *eva
   out.rings = summary->counters.ring_solves;
   out.discs = summary->counters.disc_solves;
   out.films = summary->counters.reynolds_solves;
+  out.work = summary->work;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     out.size[seal][0] = summary->seal[seal].load;
     out.size[seal][1] = summary->seal[seal].contact_width;
@@ -92,6 +93,11 @@ static Seen look(SbStatus status, const SbReport *report, const SbEvaluator *eva
   out.film = summary->error_film;
   out.force = summary->error_force;
   return out;
+}
+
+// Returns SbQuestion.work_used of each of `parts` questions that share the budget that is left.
+static size_t used_of_part(const SbStudyWork *work, size_t parts) {
+  return work->budget.limit - sb_work_part(&work->budget, parts).limit;
 }
 
 static void account(SbStudyWork *work, const Seen *seen, int line, double x) {
@@ -127,10 +133,15 @@ static void account(SbStudyWork *work, const Seen *seen, int line, double x) {
 
 // ---- the grid ----
 
+// Rows that share the budget that is left in equal parts. The number is fixed, so that the result
+// does not depend on the number of threads.
+enum { ROWS_TOGETHER = 16 };
+
 // Rows that are being computed.
 typedef struct {
   SbStudyWork *work;
-  Seen *seen;
+  Seen *seen;          // of the first of the rows that are computed together
+  size_t before, rows; // rows that are finished; all rows
   double from, to;
   bool cancelled;
 } Asking;
@@ -144,9 +155,11 @@ static void on_seen(void *data, size_t row, SbStatus status, const SbReport *rep
 static void on_progress(void *data, size_t done, size_t of) {
   const Asking *asking = data;
   const SbStudyHooks *hooks = &asking->work->hooks;
-  if (hooks->progress != NULL && !asking->cancelled && of > 0) {
-    hooks->progress(hooks->data,
-                    asking->from + (asking->to - asking->from) * (double)done / (double)of);
+  (void)of;
+  if (hooks->progress != NULL && !asking->cancelled) {
+    hooks->progress(hooks->data, asking->from + (asking->to - asking->from) *
+                                                    (double)(asking->before + done) /
+                                                    (double)asking->rows);
   }
 }
 
@@ -161,17 +174,29 @@ static bool on_cancelled(void *data) {
 void sb_study_answer_rows(SbStudyWork *work, const double *value, const int *line, const double *x,
                           size_t rows, double from, double to) {
   const SbStudyGrid *grid = work->grid;
-  Asking asking = {work, calloc(rows + 1, sizeof(Seen)), from, to, false};
+  Seen *seen = calloc(rows + 1, sizeof *seen);
   double *figures = malloc((rows * grid->figures + 1) * sizeof *figures);
-  SbReport report = {0};
-  if (work->status == SB_OK && (asking.seen == NULL || figures == NULL)) {
+  if (work->status == SB_OK && (seen == NULL || figures == NULL)) {
     work->status = sb_fail(work->report, SB_ERROR_MEMORY, "no memory for a study");
   }
-  if (work->status == SB_OK) {
-    const SbStudyAsk ask = {value, rows, work->start, on_seen, on_progress, on_cancelled, &asking};
-    const SbStatus status = grid->answer(grid->data, figures, &ask);
+  for (size_t i = 0; i < rows && work->status == SB_OK; i += ROWS_TOGETHER) {
+    const size_t count = rows - i < ROWS_TOGETHER ? rows - i : ROWS_TOGETHER;
+    Asking asking = {work, seen + i, i, rows, from, to, false};
+    const SbStudyAsk ask = {.value = value + i * grid->columns,
+                            .rows = count,
+                            .start = work->start,
+                            .work_used = used_of_part(work, count),
+                            .seen = on_seen,
+                            .progress = on_progress,
+                            .cancelled = on_cancelled,
+                            .data = &asking};
+    const SbStatus status = grid->answer(grid->data, figures + i * grid->figures, &ask);
+    SbReport report = {0};
     (void)sb_fail(&report, status, "%s", sb_status_text(status));
     (void)sb_study_goes_on(work, status, &report);
+    for (size_t k = i; k < i + count; k++) {
+      work->budget.done += seen[k].work;
+    }
   }
   for (size_t i = 0; i < rows && work->status == SB_OK; i++) {
     bool is_new;
@@ -184,13 +209,13 @@ void sb_study_answer_rows(SbStudyWork *work, const double *value, const int *lin
     if (work->design->is_no_case != NULL && work->design->is_no_case(work, line[i], x[i])) {
       continue;
     }
-    account(work, &asking.seen[i], line[i], x[i]);
+    account(work, &seen[i], line[i], x[i]);
     memcpy(out, figures + i * grid->figures, grid->figures * sizeof *out);
     if (work->design->derive != NULL) {
       work->design->derive(out, work, line[i], x[i]);
     }
   }
-  free(asking.seen);
+  free(seen);
   free(figures);
 }
 
@@ -241,6 +266,21 @@ int sb_study_grid_column(const SbStudyWork *work, const char *name) {
 
 // ---- questions ----
 
+SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evaluator,
+                           const SbQuestion *question, SbReport *report) {
+  SbQuestion within = *question;
+  within.work_used = used_of_part(work, 1);
+  within.cancelled = work->hooks.cancelled;
+  within.data = work->hooks.data;
+  const SbStatus status = sb_evaluator_ask(value, evaluator, &within, report);
+  const SbSummary *summary = sb_evaluator_summary(evaluator);
+  work->budget.done += summary != NULL ? summary->work : 0;
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    (void)sb_study_goes_on(work, status, report);
+  }
+  return status;
+}
+
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides) {
   enum { PATHS = 8 };
@@ -258,13 +298,10 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
                          .override = override,
                          .override_count = overrides,
                          .figure = figure,
-                         .figure_count = paths,
-                         .cancelled = work->hooks.cancelled,
-                         .data = work->hooks.data};
+                         .figure_count = paths};
   SbReport report;
-  SbStatus status = sb_evaluator_ask(value, work->evaluator, &question, &report);
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    (void)sb_study_goes_on(work, status, &report);
+  const SbStatus status = sb_study_question(work, value, work->evaluator, &question, &report);
+  if (work->status != SB_OK) {
     return;
   }
   const Seen seen = look(status, &report, work->evaluator);
@@ -283,10 +320,10 @@ double sb_study_net_load(SbStudyWork *work) {
   return value[0] * value[1];
 }
 
-void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double load, double speed) {
+void sb_study_film_problem(SbFilmProblem *out, SbStudyWork *work, double load, double speed) {
   sb_sliding_film_problem(out, work->scene, SB_OUTER, (SbSealPressure){0, 0}, load, speed);
-  out->cancelled = work->hooks.cancelled;
-  out->cancelled_data = work->hooks.data;
+  out->cancelled = sb_work_step;
+  out->cancelled_data = &work->budget;
 }
 
 SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report) {
@@ -294,6 +331,12 @@ SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport
     return work->status;
   }
   SbStatus status = sb_film_solve(&work->film, problem, work->solver, report);
+  SbReport cause;
+  if (sb_work_status(&work->budget, status, &cause) != status) {
+    status = sb_fail_input(
+        report, cause.status, cause.input, "film (%s), outer seal, at %.4g N/m and %.4g mm/s: %s",
+        sb_film_kind(problem->model)->name, problem->load, 1e3 * problem->speed, cause.text);
+  }
   work->out->solves++;
   work->spent += SB_COST_FILM;
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {

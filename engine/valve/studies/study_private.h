@@ -5,6 +5,9 @@
 // rows, marks and notes. Values are stored by place: a line (a curve's number, >= 0, or any other
 // number that the study chooses) and an abscissa x; sb_study_at() reads them. Without a grid
 // design->solve() computes a place when it is first read.
+//
+// All solver steps count against SbStudyWork.budget; beyond it every question and film fails with
+// SB_ERROR_NOT_CONVERGED at its first step, and leaves a gap.
 #pragma once
 
 #include "engine/base/label.h"
@@ -14,6 +17,7 @@
 #include "engine/valve/answer/evaluate.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/run/cost.h"
+#include "engine/valve/run/run_work.h"
 #include "engine/valve/run/study_cost.h"
 #include "engine/valve/studies/study.h"
 
@@ -72,7 +76,8 @@ struct SbStudyWork {
   SbFilmSolver *solver;        // of sb_study_film()
   SbFilm film;                 // last result of sb_study_film()
   SbStudyHooks hooks;          // {0} if the caller has none
-  SbReport *report;            // the caller's; may be NULL
+  SbWork budget;               // of all questions and films: output.work_limit of the scene
+  SbReport *report;            // the caller's, or one of sb_study_view(); never NULL
   SbStatus status;             // SB_OK, or the error that ends the study
   double spent, total;         // predicted cost of questions so far, and of the study [s]
   double error[2], largest[2]; // largest error and largest value of loads [N] and widths [m]
@@ -99,6 +104,12 @@ SB_STUDY_LIST(SB_STUDY_DECLARE)
 // Afterwards work->evaluator has model and summary of the question.
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
+
+// Asks `evaluator` the question (sb_evaluator_ask()) within the study's budget and with its
+// cancellation: the members work_used, cancelled and data of `question` are ignored. The study ends
+// if the status is SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
+SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evaluator,
+                           const SbQuestion *question, SbReport *report);
 
 // Notes that a solver failed at abscissa x (NaN: at none in particular), and why, a sentence: the
 // study is not complete.
@@ -144,7 +155,7 @@ void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, in
 
 // Sets the film problem of the scene's outer seal without end pressures, at a net load [N/m] and a
 // speed [m/s].
-void sb_study_film_problem(SbFilmProblem *out, const SbStudyWork *work, double load, double speed);
+void sb_study_film_problem(SbFilmProblem *out, SbStudyWork *work, double load, double speed);
 
 // Solves a film problem into work->film, starting from the last film, and reports progress.
 SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report);

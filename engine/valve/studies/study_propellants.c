@@ -307,14 +307,9 @@ static SbEvaluator *find_starts(SbStudyWork *work) {
                                  .override_count = 2,
                                  .figure = figure,
                                  .figure_count = 2,
-                                 .keep = true,
-                                 .cancelled = work->hooks.cancelled,
-                                 .data = work->hooks.data};
+                                 .keep = true};
     SbReport report;
-    const SbStatus status = sb_evaluator_ask(value, start, &question, &report);
-    if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-      (void)sb_study_goes_on(work, status, &report);
-    }
+    (void)sb_study_question(work, value, start, &question, &report);
   }
   return start;
 }

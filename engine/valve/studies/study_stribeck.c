@@ -72,12 +72,13 @@ static int places(double at[POINTS + 1], const SbStudyWork *work, double own) {
 }
 
 // Adds the errors of the films, and reports speeds without a film. solve() adds those of the
-// friction.
-static void account(SbStudyWork *work) {
+// friction. `before`: steps of work that the study has counted.
+static void account(SbStudyWork *work, size_t before) {
   SbStudy *out = work->out;
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
   out->error = fmax(out->error, summary->error_film);
   out->solves += summary->counters.speed_nodes;
+  work->budget.done += summary->work - before;
   for (size_t i = 0; i < summary->warnings.count; i++) {
     const SbWarning *warning = &summary->warnings.item[i];
     if (strcmp(warning->code, "film-speed") == 0) {
@@ -105,6 +106,9 @@ static void make(SbStudyWork *work) {
   }
   sb_study_ask(work, friction, path, LINES, &once, 1);
   const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  if (!out->complete) {
+    return; // the scene's own run did not converge
+  }
   if (work->status == SB_OK && (summary == NULL || !(summary->seal[SB_OUTER].film_central > 0))) {
     work->status =
         sb_fail_input(work->report, SB_ERROR_INFEASIBLE, sb_input(SB_P_SEAL_SECTION_DIAMETER),
@@ -113,6 +117,7 @@ static void make(SbStudyWork *work) {
   if (work->status != SB_OK) {
     return;
   }
+  const size_t counted = summary->work;
   double own[2];
   for (int i = 0; i < LINES; i++) {
     const SbContacts *contact = &summary->contact[lines[i].seal];
@@ -132,7 +137,7 @@ static void make(SbStudyWork *work) {
   if (own[0] != own[1]) {
     sb_study_mark(work, own[1], SB_LABEL("cycle, back"));
   }
-  account(work);
+  account(work, counted);
   sb_study_note(out, "Roughness %.3g \xc2\xb5m, shear strength %.3g MPa, m %.3g on %s.",
                 model->sigma * 1e6, model->shear_strength * 1e-6, model->load_coefficient,
                 sb_contact_law(model)->shares ? "the asperities' load" : "the total load");
