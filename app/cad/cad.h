@@ -66,8 +66,8 @@ typedef struct {
   // an STL has the size of a valve's part. Not for STEP.
   const char *unit;
   // Direction of the axis [3] in the file's axes, not zero. NULL: DXF: its longest centre line,
-  // else x; STEP: found from the normals of the round faces, x for a ball; STL: the coordinate axis
-  // of rotational symmetry by the moments of inertia.
+  // else x; STEP: found from the normals of the round faces, x for a ball; STL: the axis of
+  // rotational symmetry by the moments of inertia, a coordinate axis if that is nearly one.
   const double *axis;
   // A point of the axis [3] [m]. NULL: DXF: the centre line, else the origin; STEP: found with the
   // direction; STL: the middle of the mesh.

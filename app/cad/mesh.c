@@ -159,16 +159,14 @@ static bool measure(const SbStl *stl, const GPtrArray *shells, GError **error) {
 
 // The axis ----------------------------------------------------------------------------------------
 
-// How far the bodies are from bodies of revolution about an axis of the file.
-static double asymmetry(const GPtrArray *shells, int axis) {
-  const int a = (axis + 1) % 3, b = (axis + 2) % 3;
-  double off = 0, sum = 0;
-  for (guint i = 0; i < shells->len; i++) {
-    double(*const moment)[3] = ((Shell *)shells->pdata[i])->solid.inertia;
-    off += hypot(moment[a][a] - moment[b][b], 2 * moment[a][b]);
-    sum += moment[a][a] + moment[b][b];
+// Writes the axis about which the bodies are closest to bodies of revolution.
+static void find_axis(double axis[3], const GPtrArray *shells) {
+  double sum[3][3] = {{0}};
+  for (guint i = 0; i < 9 * shells->len; i++) {
+    const Shell *shell = shells->pdata[i / 9];
+    sum[i % 9 / 3][i % 3] += shell->solid.inertia[i % 9 / 3][i % 3];
   }
-  return off / sum;
+  sb_solid_axis(axis, (const double(*)[3])sum);
 }
 
 // Three unit vectors at right angles, the first along `axis`; of a coordinate axis, the others are
@@ -327,11 +325,8 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   if (shells == NULL || !measure(stl, shells, error)) {
     return NULL;
   }
-  int along = 0;
-  for (int k = 1; k < 3; k++) {
-    along = asymmetry(shells, k) < asymmetry(shells, along) ? k : along;
-  }
-  const double found[3] = {along == 0, along == 1, along == 2};
+  double found[3];
+  find_axis(found, shells);
   const double *axis = choices->axis != NULL ? choices->axis : found;
   double frame[3][3];
   frame_of(frame, axis);

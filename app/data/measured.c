@@ -23,7 +23,7 @@ static const struct {
     {"m", 0.2,
      "displ|\\bdisp\\b|weg|position|extension|travel|stroke|\\bhub\\b|placement|course|crosshead|"
      "travers|deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|"
-     "stauchung|verformung|変位|位移|^\\W*[sx]\\W*$",
+     "stauchung|verformung|変位|位移|^\\W*[sx]\\W*$|allong|allung|alarg|recorr|carrera|posi[cz]i",
      "", "mm\nµm\nin"},
     {"N", 1e5,
      "force|kraft|\\bload\\b|\\blast\\b|effort|\\bcharge\\b|carga|carico|fuerza|forza|荷重|試験力|"

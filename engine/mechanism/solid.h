@@ -58,6 +58,11 @@ typedef struct {
 SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile, double x0,
                               double x1, SbReport *report);
 
+// Writes the unit vector along which a body with the moments `inertia` is closest to a body of
+// revolution: a coordinate axis, unless all of these are off by more than 2 % of the moments across
+// them and a principal axis by less than 0.1 %. The largest component is positive.
+void sb_solid_axis(double axis[3], const double inertia[3][3]);
+
 // Gives the triangles of each connected part of a mesh the orientation that most of its area has,
 // and reverses a part with all parts inside of its box where it is inside out. Parts are connected
 // by edges of exactly two triangles. Of more than 1000 parts nothing is changed. Writes the number

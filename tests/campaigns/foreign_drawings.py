@@ -382,8 +382,23 @@ def reversed_mesh(draw, points):
     return data, ['--axis', 'z', '--unit', 'mm'], 0, exact
 
 
+def turned_mesh(draw, points):
+    """A body in any direction, whose axis the moments give."""
+    triangles = facets(points)
+    exact = polyhedron(triangles)
+    a, b = draw.uniform(0.2, 1.4), draw.uniform(0, 6)
+    along = numpy.array([math.sin(a) * math.cos(b), math.sin(a) * math.sin(b), math.cos(a)])
+    across = numpy.cross(along, [0, 0, 1])
+    across /= numpy.linalg.norm(across)
+    turn = numpy.array([across, numpy.cross(along, across), along])
+    sign = 1 if along[numpy.argmax(abs(along))] > 0 else -1
+    shift = numpy.array([draw.uniform(-30, 30) for _ in range(3)])
+    exact['centre_m'] *= sign
+    return stl(draw, triangles @ turn + shift), ['--unit', 'mm'], sign * float(along @ shift), exact
+
+
 HABITS = [lines_and_arcs, polyline, old_polyline, composite_spline, ellipse_arcs, space_polyline, nested_blocks, untidy,
-          gaps, touching_circle, hidden, mesh, hollow_mesh, reversed_mesh]
+          gaps, touching_circle, hidden, mesh, hollow_mesh, reversed_mesh, turned_mesh]
 
 
 def one(campaign, habit, number):

@@ -237,6 +237,31 @@ static void refuse_mesh(const double *v, size_t nv, const unsigned *t, size_t nt
   }
 }
 
+// Of a body of revolution with the moments 1 and 3 the axis is found in any direction; of one that
+// is not turned, and of a box, it is a coordinate axis.
+static void test_axis(void) {
+  double axis[3];
+  for (int i = 0; i < 50; i++) {
+    const double a = 0.2 + 0.02 * i, b = 0.4 * i;
+    const double d[3] = {sin(a) * cos(b), sin(a) * sin(b), cos(a)};
+    double inertia[3][3];
+    for (int k = 0; k < 9; k++) {
+      inertia[k / 3][k % 3] = (k % 4 == 0 ? 3 : 0) - 2 * d[k / 3] * d[k % 3];
+    }
+    sb_solid_axis(axis, (const double(*)[3])inertia);
+    ASSERT_NEAR(fabs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]), 1, 1e-14);
+    g_assert_cmpfloat(fmax(axis[0], fmax(axis[1], axis[2])), >, 0.57);
+  }
+  const double plain[2][3][3] = {{{3, 0, 0.01}, {0, 1, 0}, {0.01, 0, 3}},
+                                 {{2, 0, 0}, {0, 3.9, 0}, {0, 0, 4}}};
+  for (int i = 0; i < 2; i++) {
+    sb_solid_axis(axis, plain[i]);
+    for (int k = 0; k < 3; k++) {
+      g_assert_cmpfloat(axis[k], ==, k == 1 - i);
+    }
+  }
+}
+
 // A cube around a cubic cavity. Wherever facets, or all of them, are reversed, they are turned
 // back.
 static void test_oriented(void) {
@@ -314,6 +339,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/motion/solid/refused-profiles", test_refused_profiles);
   g_test_add_func("/motion/solid/mesh", test_mesh);
   g_test_add_func("/motion/solid/box", test_box);
+  g_test_add_func("/motion/solid/axis", test_axis);
   g_test_add_func("/motion/solid/oriented", test_oriented);
   g_test_add_func("/motion/solid/refused-meshes", test_refused_meshes);
   return g_test_run();
