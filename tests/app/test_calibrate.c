@@ -122,6 +122,9 @@ static void calibrate(SbCalibration *out, const SbStudyFile *study) {
     g_autofree char *line = sb_issue_line(issues->pdata[i]);
     g_error("%s", line);
   }
+  if (status != SB_OK) {
+    g_test_message("%s", report.text);
+  }
   g_assert_cmpint(status, ==, SB_OK);
 }
 
@@ -369,7 +372,8 @@ static void test_coverage(void) {
     for (int b = 0; b < BINS; b++) {
       chi += pow(ranks[j][b] - (double)repeats / BINS, 2) / ((double)repeats / BINS);
     }
-    g_test_message("%s: chi2 of its ranks %.1f", sb_param(id[j])->key, chi);
+    g_test_message("%s: %.0f %.0f %.0f %.0f %.0f ranks, chi2 %.1f", sb_param(id[j])->key,
+                   ranks[j][0], ranks[j][1], ranks[j][2], ranks[j][3], ranks[j][4], chi);
     g_assert_cmpfloat(chi, <, 13.3); // 99 % of four degrees of freedom
   }
   // Of 75 intervals as many as four deviations of a binomial allow.
