@@ -125,7 +125,7 @@ typedef struct {
 SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDialect *dialect) {
   SbTextTableCell cell;
   SbTextTableShape shape = {0};
-  const char *at = line->len > 0 && memchr("#%!", *line->str, 3) == NULL ? line->str : NULL;
+  const char *at = line->len > 0 && strspn(line->str, "#%!") == 0 ? line->str : NULL;
   for (size_t i = 0; (dialect->matrix || i < SB_TEXT_TABLE_COLUMNS_MAX) &&
                      sb_text_table_cell(&cell, &at, line->str + line->len, dialect->separator);
        i++) {

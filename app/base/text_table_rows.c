@@ -99,7 +99,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
       continue;
     }
     Line line = {0};
-    if (text->len > 0 && memchr("#%!", *text->str, 3) == NULL) {
+    if (text->len > 0 && strspn(text->str, "#%!") == 0) {
       wrong = read_line(&line, row, days, table, column, count, text);
     }
     const bool like = line.good && line.any;
@@ -167,7 +167,7 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
   sb_text_table_seek(lines, 0);
   while (good && wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
     if ((size_t)lines->number <= table->header_lines || text->len == 0 ||
-        memchr("#%!", *text->str, 3) != NULL) {
+        strspn(text->str, "#%!") > 0) {
       continue;
     }
     const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;

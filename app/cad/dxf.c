@@ -133,8 +133,9 @@ static bool place_insert(Drawing *drawing, const SbDxfEntity *entity, const SbDx
   bool good = true;
   const int columns = MAX((int)n[70], 1), count = MAX((int)n[71], 1) * columns;
   for (int i = 0; good && i < count; i++) {
+    const int row = i / columns;
     const double x = n[44] * (i % columns) - sx * block->base[0];
-    const double y = n[45] * (i / columns) - sy * block->base[1];
+    const double y = n[45] * row - sy * block->base[1];
     const SbDxfMap own = {c * sx, -s * sy, c * x - s * y + n[10],
                           s * sx, c * sy,  s * x + c * y + n[20]};
     const SbDxfMap whole = sb_dxf_after(way, &own);
