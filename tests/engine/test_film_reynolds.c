@@ -206,9 +206,13 @@ typedef struct {
 static double ratio[3][400];
 static size_t ratios;
 
-// Ratios of all kinds of ends so far.
+// Ratios of all kinds of ends, after their tests.
 static void check_ratios(void) {
   static const char *name[] = {"minimum", "centre", "flux"};
+  if (ratios == 0) {
+    g_test_skip("no film was solved");
+    return;
+  }
   for (int i = 0; i < 3; i++) {
     qsort(ratio[i], ratios, sizeof ratio[i][0], by_value);
     g_test_message("%s, %zu points: estimate/true from %.2g, median %.2g, to %.2g", name[i], ratios,
@@ -258,7 +262,6 @@ static void test_honest(gconstpointer data) {
       ratios++;
     }
   }
-  check_ratios();
 }
 
 int main(int argc, char **argv) {
@@ -277,6 +280,7 @@ int main(int argc, char **argv) {
     g_test_add_data_func(path, &ends[i], test_honest);
     g_free(path);
   }
+  g_test_add_func("/film/reynolds/honest/medians", check_ratios);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
   return failed;
