@@ -258,8 +258,9 @@ static GString *comment_of(const SbChartRun *run, const SbSummary *summary,
   sb_page_errors_text(errors, sizeof errors, summary);
   sb_translation_resume(paused);
   GString *comment = g_string_new(NULL);
-  g_string_append_printf(comment, "Models: %s\nError estimates: %s  (discretisation, not the choice of model)",
-                         models, errors);
+  g_string_append_printf(
+      comment, "Models: %s\nError estimates: %s  (discretisation, not the choice of model)", models,
+      errors);
   if (options->stale) {
     g_string_append_printf(comment, "\nStale: %s", options->stale);
   }

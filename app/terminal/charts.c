@@ -100,7 +100,7 @@ static void draw_stages(SbPlot *plot, SbCellRect within, const SbCellTheme *them
 }
 
 static void label_return(SbPlot *plot, SbCellRect within, const SbCellTheme *theme,
-                        const SbChartRun *run) {
+                         const SbChartRun *run) {
   const SbSummary *summary = run->summary;
   const int figure = sb_figure_find("cycle.force_return_min_N");
   if (summary == NULL || isnan(sb_figure_value(summary, figure))) {

@@ -289,7 +289,7 @@ static void test_warnings(void) {
     in.variant = row[i].variant;
     in.poisson_ratio = row[i].poisson > 0.0 ? row[i].poisson : in.poisson_ratio;
     in.inner_diameter = in.bore_diameter - in.radial_space - in.section_diameter; // no stretch
-    in.gland_width = 4 * in.section_diameter; // not full
+    in.gland_width = 4 * in.section_diameter;                                     // not full
     SbFit fit;
     g_assert_cmpint(sb_fit_solve(&fit, &in, NULL), ==, SB_OK);
     g_assert_cmpint(fit.valid, ==, row[i].code == NULL);
