@@ -160,9 +160,11 @@ char *sb_shipped_name(const char *path, SbShippedKind kind) {
 }
 
 char *sb_shipped_title(const char *path) {
-  g_autoptr(GKeyFile) keys = g_key_file_new();
-  g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
-  char *title = g_key_file_get_string(keys, "sealbench", "title", NULL);
-  title = title != NULL ? title : example_title(path);
+  char *title = example_title(path); // first: an example may be a long file of another kind
+  if (title == NULL) {
+    g_autoptr(GKeyFile) keys = g_key_file_new();
+    g_key_file_load_from_file(keys, path, G_KEY_FILE_NONE, NULL);
+    title = g_key_file_get_string(keys, "sealbench", "title", NULL);
+  }
   return title != NULL ? title : g_path_get_basename(path);
 }
