@@ -219,16 +219,17 @@ static void judge_stretch(SbFit *out, const SbFitProblem *in) {
           round || in->names == NULL ? "" : in->names->fitted);
 }
 
-// Only the ring model includes the groove's walls, which press a section without free volume
-// against the bore.
+bool sb_fit_ignores_walls(SbFitModel model, double gland_fill) {
+  return !models[model].kind.section && gland_fill >= 1.0;
+}
+
 static void judge_walls(SbFit *out, const SbFitProblem *in) {
-  const SbFitKind *kind = &models[in->model].kind;
-  if (!kind->section && !in->gasket && out->touches && out->gland_fill >= 1) {
+  if (!in->gasket && out->touches && sb_fit_ignores_walls(in->model, out->gland_fill)) {
     sb_warn(
         &out->warnings, "gland-overfilled", SB_CONTACT_IN_GLAND_WIDTH,
         "the ring overfills its groove (gland fill %.3g %%): %s does not include the walls, and "
         "its load is too small",
-        100.0 * out->gland_fill, kind->name);
+        100.0 * out->gland_fill, models[in->model].kind.name);
   }
 }
 

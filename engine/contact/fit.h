@@ -61,6 +61,10 @@ typedef struct {
 // Returns what a model computes; static. NULL for an invalid one.
 const SbFitKind *sb_fit_kind(SbFitModel model);
 
+// Returns whether a ring that fills the fraction `gland_fill` of its groove presses on walls that
+// the model does not include: only solved sections have them. Its load is then too small.
+bool sb_fit_ignores_walls(SbFitModel model, double gland_fill);
+
 // Returns the typical relative error estimate of a valid model's load at a tolerance (0 to 1); 0:
 // exact.
 double sb_fit_load_error(SbFitModel model, double tolerance);

@@ -66,7 +66,8 @@ void sb_solid_axis(double axis[3], const double inertia[3][3]);
 // Gives the triangles of each connected part of a mesh the orientation that most of its area has,
 // and reverses a part with all parts inside of its box where it is inside out. Parts are connected
 // by edges of exactly two triangles. Of more than 1000 parts nothing is changed. Writes the number
-// of triangles that were reversed. Vertices are numbers, and triangles[3 count] index them.
+// of triangles that were reversed. triangles[count][3] has vertex numbers, vertices[][3] their
+// places (x, y, z).
 SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const double *vertices,
                         SbReport *report);
 

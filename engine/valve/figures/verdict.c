@@ -94,7 +94,7 @@ static void doubt(SbVerdict *of, const SbSummary *summary, double bound) {
 // load and friction are then larger than computed.
 static void doubt_walls(SbVerdict *of, const SbModel *model, int seal) {
   const double fill = model->seal[seal].gland_fill;
-  if (of->ok == SB_ANSWER_YES && !sb_fit_kind(model->fit)->section && fill >= 1) {
+  if (of->ok == SB_ANSWER_YES && sb_fit_ignores_walls(model->fit, fill)) {
     of->ok = SB_ANSWER_UNKNOWN;
     sb_message(of->reason, SB_TEXT,
                "uncertain: the %s ring overfills its groove (gland fill %.3g %%), whose walls "
