@@ -116,12 +116,13 @@ SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error
   if (text == NULL) {
     return NULL;
   }
-  // By what it holds: names lie. The name decides of what is nothing else.
+  // The content decides; the name only where the content is of no known kind.
+  g_autofree char *lower = g_ascii_strdown(path, -1);
   static const char step[] = "ISO-10303-21";
   enum { HEAD = 1000 };
   return g_strstr_len(text, (gssize)MIN(length, HEAD), step) != NULL
              ? sb_cad_read_step(path, shown, choices, error)
-         : sb_cad_is_stl(text, length) || g_str_has_suffix(path, ".stl")
+         : sb_cad_is_stl(text, length) || g_str_has_suffix(lower, ".stl")
              ? sb_cad_parse_stl(text, length, shown, choices, error)
              : sb_cad_parse_dxf(text, length, shown, choices, error);
 }

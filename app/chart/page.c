@@ -103,6 +103,15 @@ void sb_page_errors_text(char *out, size_t size, const SbSummary *summary) {
   g_strlcpy(out, text->len ? text->str : _("rounding only"), size);
 }
 
+static const char *const scope = N_("  (discretisation, not the choice of model)");
+
+char *sb_page_comment(const SbChartRun *run, const SbSummary *summary) {
+  char models[512], errors[512];
+  sb_page_models_text(models, sizeof models, run);
+  sb_page_errors_text(errors, sizeof errors, summary);
+  return g_strdup_printf("Models: %s\nError estimates: %s%s", models, errors, _(scope));
+}
+
 // ---------------------------------------------------------------------------------------------------
 // Header
 
@@ -358,7 +367,7 @@ void sb_page_footer_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   char models[512], errors[512], version[160];
   sb_page_models_text(models, sizeof models, &data->run);
   sb_page_errors_text(errors, sizeof errors, data->run.summary);
-  g_strlcat(errors, _("  (discretisation, not the choice of model)"), sizeof errors);
+  g_strlcat(errors, _(scope), sizeof errors);
   g_snprintf(version, sizeof version, "Sealbench %s", sb_version());
   if (data->hash && data->hash[0]) {
     g_strlcat(version, _("  \xc2\xb7  run "), sizeof version);

@@ -53,3 +53,6 @@ void sb_page_conditions_text(char *out, size_t size, const SbChartRun *run);
 // to out[size]: "Break-away force ± 0.09 N · Return margin ± 0.20 N"; of the sliding plate those of
 // its short table. `summary` is NULL until the run has ended.
 void sb_page_errors_text(char *out, size_t size, const SbSummary *summary);
+
+// Returns both texts as the comment of a picture's or report's file, freed by g_free().
+char *sb_page_comment(const SbChartRun *run, const SbSummary *summary);

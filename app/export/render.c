@@ -252,15 +252,10 @@ static void draw_page(cairo_t *cr, double width, double height, void *user) {
 // Returns models, errors and warnings for the file's own texts.
 static GString *comment_of(const SbChartRun *run, const SbSummary *summary,
                            const SbRenderOptions *options) {
-  char models[256], errors[256];
   const locale_t paused = sb_translation_pause();
-  sb_page_models_text(models, sizeof models, run);
-  sb_page_errors_text(errors, sizeof errors, summary);
+  g_autofree char *page = sb_page_comment(run, summary);
   sb_translation_resume(paused);
-  GString *comment = g_string_new(NULL);
-  g_string_append_printf(
-      comment, "Models: %s\nError estimates: %s  (discretisation, not the choice of model)", models,
-      errors);
+  GString *comment = g_string_new(page);
   if (options->stale) {
     g_string_append_printf(comment, "\nStale: %s", options->stale);
   }

@@ -407,11 +407,7 @@ bool sb_report_scene(FILE *stream, const SbReportScene *of, const SbReportHooks 
   g_autofree char *hash = sb_document_sha256(of->document);
   scene.files = sb_report_files(of->document);
   g_autofree char *foot = sb_report_foot(scene.files, hash);
-  char models[512], errors[512];
-  sb_page_models_text(models, sizeof models, &scene.data.run);
-  sb_page_errors_text(errors, sizeof errors, scene.data.run.summary);
-  g_autofree char *comment = g_strdup_printf(
-      "Models: %s\nError estimates: %s  (discretisation, not the choice of model)", models, errors);
+  g_autofree char *comment = sb_page_comment(&scene.data.run, scene.data.run.summary);
   const SbReportTexts texts = {.title = sb_document_title(of->document),
                                .foot = foot,
                                .comment = comment,
