@@ -542,7 +542,7 @@ static void test_numbers(void) {
   }
 }
 
-// A damaged row before a line that is no row: the line that is named is the one that is no row.
+// The message names the first line that is not a row, not a damaged row before it.
 static void test_left_line(void) {
   static const char text[] = "a;b\n1;2\n1;3\n1;\0002\n3;4\nabc;def\n5;6\n";
   g_autoptr(GPtrArray) issues = sb_issues_new();

@@ -1,4 +1,6 @@
 // Bordered Newton for contact ends (ring_aligned.h).
+//
+// Long: a proof in one file, with the state that the ring solver would have to keep for it.
 #include "ring_aligned.h"
 
 #include "engine/numeric/dense.h"

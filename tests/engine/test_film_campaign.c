@@ -364,7 +364,7 @@ static void test_rigid_in_pools(void) {
 // than one per cent of all.
 static void test_ends(void) {
   enum { SMOOTH, RIGID, GREENWOOD_TRIPP, PERSSON, SLOW, KINDS, STEPS_MAX = 40 };
-  static const double NEARLY_OPEN = 2.6; // of pi, in Hertz pressures
+  static const double NEARLY_OPEN = 2.6; // of pi, in Hertz pressures; found above: from 2.67 on
   GRand *random = g_rand_new_with_seed(seed + 3);
   Tally tally = {0};
   int lost = 0, steps = 0;

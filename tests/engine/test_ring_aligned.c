@@ -147,6 +147,8 @@ static void count_ring(Tally *tally, SbRing *ring, double drag, int number) {
     tally->moved = fmax(tally->moved, change);
     tally->most = MAX(tally->most, iterations);
     tally->iterations += iterations;
+    // Nodal forces next to an end waver by up to 0.08 shear moduli; a contact that is missing
+    // penetrates by more than 1e-4 diameters.
     if (tension > 0.1 || penetration > 1e-4 || change > 0.01) {
       tally->faulty++;
       g_test_message("%d: load moved by %.2g, tension %.2g, penetration %.2g", number, change,

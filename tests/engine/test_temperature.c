@@ -210,7 +210,7 @@ static void test_expansion(void) {
   SbGland glands[2];
   sb_model_gland(&glands[0], &cold, SB_INNER);
   sb_model_gland(&glands[1], &warm, SB_INNER);
-  // From the first size on there is no padding.
+  // The sizes are doubles in a row, without padding between them.
   const size_t sizes = offsetof(SbGland, section_diameter);
   g_assert_cmpmem((char *)&glands[0] + sizes, sizeof glands[0] - sizes, (char *)&glands[1] + sizes,
                   sizeof glands[1] - sizes);
