@@ -13,13 +13,15 @@ const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *m, size_t index) {
   return &g_array_index(m->cycle, SbMeasuredCycle, index);
 }
 
-// Whether a row is of a sliding stem, and in which way.
+// Whether a row is of a sliding stem, and in which way. A stem that jams on its return rests where
+// the cycle ends, while the force falls.
 static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
   const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
   const double margin = 0.01 * stroke;
   *way = row >= cycle->turn;
+  const double rest = *way ? fmax(m->displacement[cycle->end - 1], 0) : 0;
   const SbMeasuredStage *end = &m->stage[*way ? SB_STAGE_E : SB_STAGE_D];
-  return s > margin && s < (end->found ? end->displacement : stroke) - margin;
+  return s > rest + margin && s < (end->found ? end->displacement : stroke) - margin;
 }
 
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t count_max) {

@@ -397,7 +397,9 @@ SbStatus sb_inference(SbInference *out, const SbInferenceAsked *asked, SbReport 
   }
   g_free(work.known_z);
   g_free(work.known_residual);
-  return status;
+  return status == SB_ERROR_NOT_CONVERGED
+             ? sb_fail(report, status, "the fit of the parameters has not converged")
+             : status;
 }
 
 void sb_inference_release(SbInference *inference) {

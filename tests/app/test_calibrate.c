@@ -265,6 +265,32 @@ static void test_curves(void) {
   g_unlink(two);
 }
 
+// A stem that jams halfway back: the rows in which it rests there, while the force falls, are not
+// of a sliding stem.
+static void test_jammed(void) {
+  const SbOverride jammed[] = {{SB_P_FRICTION_LOAD_COEFFICIENT, 0.216},
+                               {SB_P_STEM_PRESSURE_DIAMETER, 5.832e-3},
+                               {SB_P_BORE_LAND_EDGE, 2.895e-3}};
+  const Bench bench = {.rows = 150, .seed = 1019};
+  g_autofree char *file = write_bench("jammed.csv", &bench, jammed, G_N_ELEMENTS(jammed));
+  g_autoptr(SbStudyFile) study =
+      study_of("[vary]\nfriction.load_coefficient = uniform 0.15 .. 0.22\n"
+               "stem.pressure_diameter = normal 5.8 mm, 0.03 mm\n"
+               "bore.land_edge = uniform 2.8 mm .. 3.6 mm\n"
+               "[study]\nsamples = 200\n"
+               "[data]\nfile = jammed.csv\nzero = as-is\ncompliance = none\n");
+  SbCalibration found;
+  calibrate(&found, study);
+  g_assert_cmpfloat(found.curve[0].measured->displacement[149], >, 2.5e-3); // it does jam
+  g_assert_cmpfloat(found.chi2, <, 1.5);
+  for (size_t j = 0; j < 3; j++) {
+    const SbCalibrated *one = &found.parameter[j];
+    g_assert_cmpfloat_with_epsilon(one->estimate, jammed[j].value, 3 * one->deviation);
+  }
+  sb_calibration_release(&found);
+  g_unlink(file);
+}
+
 // A valve that runs in, eight strokes of it in one file from its third on: how much and how soon,
 // from three of them. The same strokes taken for those of a valve long run in are not.
 static void test_running_in(void) {
@@ -551,6 +577,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/calibrate/running-in", test_running_in);
   g_test_add_func("/calibrate/refused", test_refused);
   g_test_add_func("/calibrate/cancel", test_cancel);
+  g_test_add_func("/calibrate/jammed", test_jammed);
   g_test_add_func("/calibrate/coverage", test_coverage);
   g_test_add_func("/calibrate/wrong-model", test_wrong_model);
   if (g_test_slow()) {
