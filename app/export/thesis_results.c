@@ -19,6 +19,18 @@ static char *row_text(const SbThesisRow *row, double value) {
   return sb_quantity_round(value, row->si, row->shown, 5);
 }
 
+// As row_text(), of a part of the row's values: to the place of their fifth digit, so that parts
+// add up as they are printed and none shows digits that a difference of five digits does not have.
+static char *share_text(const SbThesisRow *row, double value) {
+  const double whole[] = {row->printed, row->thesis, row->consistent};
+  double most = 0;
+  for (size_t i = 0; i < G_N_ELEMENTS(whole); i++) {
+    most = isfinite(whole[i]) ? fmax(most, fabs(whole[i])) : most;
+  }
+  const double place = value != 0 && most > 0 ? floor(log10(most)) - floor(log10(fabs(value))) : 0;
+  return sb_quantity_round(value, row->si, row->shown, (int)fmax(fmin(5 - place, 5), 1));
+}
+
 // What a step explains; rounding is nothing. Owned by the caller.
 static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
   if (!isfinite(part->explains)) {
@@ -26,8 +38,8 @@ static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
   }
   const double scale = isfinite(row->printed) ? fabs(row->printed) : fabs(row->thesis);
   const double explains = fabs(part->explains) <= 1e-9 * scale ? 0 : part->explains;
-  g_autofree char *text = row_text(row, explains);
-  g_autofree char *bound = isfinite(part->bound) ? row_text(row, part->bound) : NULL;
+  g_autofree char *text = share_text(row, explains);
+  g_autofree char *bound = isfinite(part->bound) ? share_text(row, part->bound) : NULL;
   return g_strconcat(explains > 0 ? "+" : "", text, bound != NULL ? " of at most " : "",
                      bound != NULL ? bound : "", NULL);
 }
@@ -37,7 +49,7 @@ static char *rest_text(const SbThesisRow *row) {
   if (!isfinite(row->remains)) {
     return NULL;
   }
-  g_autofree char *left = row_text(row, -row->remains);
+  g_autofree char *left = share_text(row, -row->remains);
   const bool rounding = fabs(row->remains) <= row->rounding + 1e-12 * fabs(row->printed);
   return g_strdup_printf("remains %s", rounding ? "rounding" : left);
 }

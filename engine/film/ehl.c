@@ -101,7 +101,7 @@ static void estimate(SbFilmSolver *solver, double change[LEVELS][3], int levels,
   // Safety factors on the second level, where the spectrum alone gives the rate, and from the third
   // level on: of the minimum, whose neighbourhood at the outlet is a small part of the spectrum, of
   // the centre and of the flux (test_film_reynolds.c, campaign films).
-  static const double SURE[] = {2.0, 1.7, 2.0}, SEEN[] = {1.5, 1.0, 1.5};
+  static const double SURE[] = {2.0, 1.7, 2.0}, SEEN[] = {2.0, 1.35, 1.5};
   // At least half of the best error of a level, whatever the changes are: finally the rounding of
   // the kernel and of Newton's method; of rough rows the error near the rupture.
   static const double FINEST[LEVELS] = {1.0, 2e-8, 1.5e-10, 1e-10, 1e-10, 1e-10};
