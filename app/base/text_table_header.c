@@ -109,8 +109,8 @@ static char **cells_by(const char *line, size_t length, char separator) {
     add_cell(out, cell[i].text, cell[i].length);
     char *text = out->pdata[out->len - 1];
     // A unit between blanks is part of the name before it, unless that is a unit too.
-    if (separator == ' ' && out->len > 1 && memchr("[(", *text, 2) != NULL &&
-        memchr("[(", *(char *)out->pdata[out->len - 2], 2) == NULL) {
+    if (separator == ' ' && out->len > 1 && strspn(text, "[(") > 0 &&
+        strspn(out->pdata[out->len - 2], "[(") == 0) {
       g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
       g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
       g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));

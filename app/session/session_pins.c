@@ -252,7 +252,7 @@ void sb_session_poll_pins(SbSession *session) {
     sb_run_handle_unref(handle);
   }
   // What somebody waits for goes first.
-  if (session->ticket == 0 && session->debounce == 0 && session->pin_ticket == 0) {
+  if (!sb_session_computes(session) && !sb_session_delays(session) && session->pin_ticket == 0) {
     compute_next(session);
   }
   if (done) {

@@ -23,6 +23,16 @@ typedef enum {
   SB_SIGNAL_COUNT
 } SbSessionSignal;
 
+// What happens to the run of the present values. sb_session_go() has the transitions,
+// docs/developer/session.md their diagram.
+typedef enum {
+  SB_REQUEST_NONE,      // nothing
+  SB_REQUEST_DELAYED,   // the timer starts it
+  SB_REQUEST_COMPUTED,  // it is computed
+  SB_REQUEST_OVERTAKEN, // a run of earlier values is computed; the timer starts the new one
+  SB_REQUEST_PAUSED     // a near run of it is displayed; the timer starts the full run
+} SbRequestState;
+
 // Where the runners' threads leave their notifications (session_run.c).
 typedef struct SbSessionInbox SbSessionInbox;
 
@@ -42,17 +52,16 @@ struct _SbSession {
   // enough frames, until then the run before. References; NULL: none.
   SbRunner *runner; // owned
   SbSessionInbox *inbox;
-  unsigned ticket;         // of the request that is computed; 0: none
+  SbRequestState request;
+  guint timer;             // GLib source: of `request`, or of the signal "run-changed"; 0: none
+  unsigned ticket;         // of the run that is computed; 0: none
   SbParams asked;          // values of this request
   uint64_t asked_drawings; // sb_model_drawings() of this request
   SbRunGrade grade;        // of this request
   SbDisplayedRun *fresh, *shown, *earlier;
-  SbSessionState state;
   char *failure;     // see sb_session_failure()
   gboolean faulty;   // `failure` states errors of the document's files
   gboolean auto_run; // edits start runs
-  guint debounce;    // GLib source of the delayed start; 0: none
-  guint later;       // GLib source of the converged run after a preview; 0: none
   gboolean heavy;    // runs of the present values are computed in several grades
   gboolean former;   // see sb_session_shows_former()
   SbRunCache *cache;
@@ -172,13 +181,19 @@ void sb_session_remember_place(SbSession *session);
 // which is drawn behind it. The caller places the playhead.
 void sb_session_display_fresh(SbSession *session);
 
-// Returns the state of a session whose request has ended.
-SbSessionState sb_session_ended_state(const SbSession *session);
-
 // ---- Requests of runs (session_request.c) ----
 
-// Removes the GLib source *source, if there is one, and sets it to 0.
-void sb_session_cancel_source(guint *source);
+// Makes `to` the state of the request. Its timer ends, except that of an overtaken run that is now
+// delayed; `ticket` ends where nothing is computed. A transition that there is not is a programming
+// error (g_critical), and nothing changes.
+void sb_session_go(SbSession *session, SbRequestState to);
+
+// Returns whether a run is computed, of the present or of earlier values.
+bool sb_session_computes(const SbSession *session);
+
+// Returns whether the timer is going to start a run of the present values, of which nothing is
+// computed yet.
+bool sb_session_delays(const SbSession *session);
 
 // Returns whether a run (NULL: no) is complete and belongs to values and drawings
 // (sb_model_drawings()).
@@ -199,9 +214,6 @@ void sb_session_continue(SbSession *session);
 void sb_session_keep_run(SbSession *session, SbDisplayedRun *run);
 
 // ---- What is displayed ----
-
-// Returns the state of the displayed run, whether or not it belongs to the present values.
-SbSessionState sb_session_shown_state(const SbSession *session);
 
 // Returns whether the displayed run belongs to earlier values and will not be replaced soon.
 gboolean sb_session_is_former(SbSession *session);

@@ -28,8 +28,8 @@
 #include <math.h>
 
 enum {
-  DEBOUNCE_MS = 30, // before a heavy run of several edits; an overtaken one ends within 50 ms
-  IDLE_MS = 1000    // after a near run, before the whole one
+  DELAY_MS = 30, // before a heavy run of several edits; an overtaken one ends within 50 ms
+  IDLE_MS = 1000 // after a near run, before the whole one
 };
 
 // Expected time of a run from which on it comes in grades [s], and the share of it that a coarse
@@ -39,11 +39,37 @@ static const double HEAVY_S = 0.15, COARSE_SHARE = 0.5;
 // Of a coarse run.
 static const double COARSE_TOLERANCE = 0.01, COARSE_FRAMES = 200;
 
-void sb_session_cancel_source(guint *source) {
-  if (*source != 0) {
-    g_source_remove(*source);
-    *source = 0;
+void sb_session_go(SbSession *session, SbRequestState to) {
+#define TO(state) (1u << SB_REQUEST_##state)
+  static const unsigned next[] = {
+      [SB_REQUEST_NONE] = TO(NONE) | TO(DELAYED) | TO(COMPUTED) | TO(PAUSED),
+      [SB_REQUEST_DELAYED] = TO(NONE) | TO(COMPUTED),
+      [SB_REQUEST_COMPUTED] = TO(NONE) | TO(COMPUTED) | TO(OVERTAKEN),
+      [SB_REQUEST_OVERTAKEN] = TO(NONE) | TO(COMPUTED) | TO(DELAYED),
+      [SB_REQUEST_PAUSED] = TO(NONE) | TO(COMPUTED),
+  };
+#undef TO
+  const SbRequestState from = session->request;
+  g_return_if_fail(next[from] >> to & 1);
+  if (session->timer != 0 && !(from == SB_REQUEST_OVERTAKEN && to == SB_REQUEST_DELAYED)) {
+    g_source_remove(session->timer);
+    session->timer = 0;
   }
+  session->request = to;
+  session->ticket = sb_session_computes(session) ? session->ticket : 0;
+}
+
+bool sb_session_computes(const SbSession *session) {
+  return session->request == SB_REQUEST_COMPUTED || session->request == SB_REQUEST_OVERTAKEN;
+}
+
+bool sb_session_delays(const SbSession *session) {
+  return session->request == SB_REQUEST_DELAYED || session->request == SB_REQUEST_OVERTAKEN;
+}
+
+// Ends what waits, not what is computed.
+static void end_delay(SbSession *session) {
+  sb_session_go(session, sb_session_computes(session) ? SB_REQUEST_COMPUTED : SB_REQUEST_NONE);
 }
 
 uint64_t sb_session_drawings(const SbSession *session) {
@@ -117,7 +143,7 @@ void sb_session_submit(SbSession *session, SbRunGrade grade) {
   ask(session);
   session->grade = grade;
   session->started = g_get_monotonic_time();
-  session->state = SB_SESSION_RUNNING;
+  sb_session_go(session, SB_REQUEST_COMPUTED);
   session->ticket = sb_runner_submit(
       session->runner, &(SbRunRequest){
                            .model = coarse != NULL ? coarse : session->model,
@@ -142,7 +168,7 @@ static SbRunGrade first_grade(SbSession *session) {
 
 static gboolean on_idle_long(gpointer data) {
   SbSession *session = data;
-  session->later = 0;
+  session->timer = 0;
   sb_session_submit(session, SB_GRADE_WHOLE);
   sb_session_run_changed(session);
   return G_SOURCE_REMOVE;
@@ -154,8 +180,8 @@ void sb_session_continue(SbSession *session) {
   } else if (session->shown->grade == SB_GRADE_COARSE || session->shown->grade == SB_GRADE_STORED) {
     sb_session_submit(session, SB_GRADE_WHOLE);
   } else if (session->shown->grade == SB_GRADE_NEAR) {
-    session->state = SB_SESSION_RUNNING;
-    session->later = g_timeout_add(IDLE_MS, on_idle_long, session);
+    sb_session_go(session, SB_REQUEST_PAUSED);
+    session->timer = g_timeout_add(IDLE_MS, on_idle_long, session);
   }
 }
 
@@ -171,14 +197,13 @@ void sb_session_keep_run(SbSession *session, SbDisplayedRun *run) {
 // Begins the run of the present values; FALSE: they make no model. Not inlined: callers have
 // parameters on their stacks as well.
 static G_NO_INLINE gboolean begin(SbSession *session) {
-  sb_session_cancel_source(&session->debounce);
-  sb_session_cancel_source(&session->later);
+  end_delay(session);
   if (session->model == NULL) {
     return FALSE;
   }
   // A run that this one overtakes while it was being watched makes room for the one before it, or
   // stays as the part that it is.
-  if (session->ticket != 0 && session->shown != NULL && session->shown == session->fresh) {
+  if (sb_session_computes(session) && session->shown != NULL && session->shown == session->fresh) {
     session->shown->chart.state = SB_CHART_PARTIAL;
     if (session->earlier != NULL) {
       sb_session_remember_place(session);
@@ -199,9 +224,9 @@ static void start_now(SbSession *session) {
   }
 }
 
-static gboolean on_debounced(gpointer data) {
+static gboolean on_delayed(gpointer data) {
   SbSession *session = data;
-  session->debounce = 0;
+  session->timer = 0;
   start_now(session);
   return G_SOURCE_REMOVE;
 }
@@ -209,17 +234,17 @@ static gboolean on_debounced(gpointer data) {
 // A run that has begun is told.
 static gboolean on_begun(gpointer data) {
   SbSession *session = data;
-  session->debounce = 0;
+  session->timer = 0;
   sb_session_run_changed(session);
   return G_SOURCE_REMOVE;
 }
 
 // Shows a complete run of the present values in place of what is shown or under way.
 static void adopt(SbSession *session, SbDisplayedRun *run) {
-  if (session->ticket != 0) {
+  if (sb_session_computes(session)) {
     sb_runner_cancel(session->runner);
-    session->ticket = 0;
   }
+  sb_session_go(session, SB_REQUEST_NONE);
   if (run != session->shown) {
     sb_session_set_reference(&session->fresh, run);
     sb_session_display_fresh(session);
@@ -228,7 +253,6 @@ static void adopt(SbSession *session, SbDisplayedRun *run) {
   sb_session_set_reference(&session->fresh, NULL);
   sb_session_set_reference(&session->earlier, NULL);
   g_clear_pointer(&session->failure, g_free);
-  session->state = sb_session_shown_state(session);
   sb_session_set_base(session, session->shown);
   if (session->auto_run) {
     sb_session_continue(session);
@@ -275,24 +299,20 @@ static void take_faults(SbSession *session) {
 void sb_session_values_changed(SbSession *session) {
   take_faults(session);
   SbParams params = sb_document_params(session->document);
-  sb_session_cancel_source(&session->debounce);
-  sb_session_cancel_source(&session->later);
+  end_delay(session);
   session->heavy = session->model != NULL && expected(session->model, false) > HEAVY_S;
   sb_session_predict(session);
-  if (session->ticket == 0) {
-    session->state = sb_session_ended_state(session);
-  }
-  if (session->ticket == 0 || !sb_session_is_current(session)) {
+  const bool computes = sb_session_computes(session);
+  if (!computes || !sb_session_is_current(session)) {
     const uint64_t drawings = sb_session_drawings(session);
     SbDisplayedRun *known = session->model == NULL ? NULL
                             : sb_session_answers(session->shown, &params, drawings)
                                 ? session->shown
                                 : sb_run_cache_get(session->cache, &params, drawings);
     // A file is looked for where nothing else is shown: later, what is known here starts better.
-    SbDisplayedRun *stored =
-        known == NULL && session->heavy && session->shown == NULL && session->ticket == 0
-            ? stored_run(session, &params)
-            : NULL;
+    SbDisplayedRun *stored = known == NULL && session->heavy && session->shown == NULL && !computes
+                                 ? stored_run(session, &params)
+                                 : NULL;
     if (stored != NULL) {
       sb_run_cache_put(session->cache, stored);
     }
@@ -304,9 +324,11 @@ void sb_session_values_changed(SbSession *session) {
       // next. A single edit's begins before anybody is told, which takes the window 40 ms.
       const bool grades = session->heavy && session->shown != NULL;
       const bool begun = grades && session->lone && begin(session);
-      const guint wait = grades && !session->lone ? DEBOUNCE_MS : 0;
-      session->debounce = g_timeout_add(wait, begun ? on_begun : on_debounced, session);
-      session->state = session->heavy ? SB_SESSION_RUNNING : session->state;
+      const guint wait = grades && !session->lone ? DELAY_MS : 0;
+      if (!begun) {
+        sb_session_go(session, computes ? SB_REQUEST_OVERTAKEN : SB_REQUEST_DELAYED);
+      }
+      session->timer = g_timeout_add(wait, begun ? on_begun : on_delayed, session);
     }
   }
   session->former = sb_session_is_former(session);
@@ -317,14 +339,13 @@ void sb_session_start(SbSession *session) {
 }
 
 void sb_session_stop(SbSession *session) {
-  const bool waits = session->debounce != 0 || session->later != 0;
-  sb_session_cancel_source(&session->debounce);
-  sb_session_cancel_source(&session->later);
+  const bool begun = sb_session_computes(session) && session->fresh != NULL;
+  const bool wanted = session->request != SB_REQUEST_NONE;
   sb_runner_cancel(session->runner);
-  if (session->ticket != 0 ? session->fresh == NULL : waits) {
-    // It never began.
-    session->ticket = 0;
-    session->state = sb_session_ended_state(session);
+  if (begun || !wanted) {
+    end_delay(session);
+  } else {
+    sb_session_go(session, SB_REQUEST_NONE);
     sb_session_run_changed(session);
   }
 }

@@ -69,8 +69,10 @@ static void set_failure(SbSession *session, SbStatus status, const SbReport *rep
   session->failure = g_string_free(g_steal_pointer(&text), FALSE);
 }
 
-SbSessionState sb_session_ended_state(const SbSession *session) {
-  return session->failure != NULL ? SB_SESSION_FAILED : sb_session_shown_state(session);
+// What was computed has ended; what waits goes on waiting.
+static void end_request(SbSession *session) {
+  sb_session_go(session,
+                session->request == SB_REQUEST_OVERTAKEN ? SB_REQUEST_DELAYED : SB_REQUEST_NONE);
 }
 
 // Takes over what a request has ended with. A run that ends without a frame, failed or cancelled,
@@ -80,8 +82,8 @@ static void finish(SbSession *session) {
   SbDisplayedRun *fresh = session->fresh;
   SbStatus status = sb_run_handle_status(fresh->handle);
   const bool current = sb_session_is_current(session);
-  session->ticket = 0;
-  if (!current && session->debounce != 0 && session->shown != NULL && session->shown != fresh) {
+  end_request(session);
+  if (!current && sb_session_delays(session) && session->shown != NULL && session->shown != fresh) {
     return;
   }
   if (fresh->grade != SB_GRADE_WHOLE && status != SB_OK && status != SB_ERROR_CANCELLED &&
@@ -111,7 +113,6 @@ static void finish(SbSession *session) {
     }
   }
   sb_session_set_reference(&session->earlier, NULL);
-  session->state = sb_session_ended_state(session);
   if (status == SB_OK && current && session->shown == fresh) {
     sb_session_keep_run(session, fresh);
     sb_session_continue(session);
@@ -123,7 +124,7 @@ static void finish(SbSession *session) {
 
 // The runner has something new.
 static void poll_frames(SbSession *session) {
-  SbRunHandle *handle = session->ticket != 0 ? sb_runner_latest(session->runner) : NULL;
+  SbRunHandle *handle = sb_session_computes(session) ? sb_runner_latest(session->runner) : NULL;
   if (handle == NULL || sb_run_handle_ticket(handle) != session->ticket) {
     sb_run_handle_unref(handle);
     return;
@@ -132,8 +133,7 @@ static void poll_frames(SbSession *session) {
     if (sb_run_handle_is_done(handle)) {
       session->failure =
           g_strdup_printf(_("The run could not start: %s."), sb_run_handle_report(handle)->text);
-      session->ticket = 0;
-      session->state = SB_SESSION_FAILED;
+      end_request(session);
       sb_session_run_changed(session);
     }
     sb_run_handle_unref(handle);
@@ -188,7 +188,7 @@ void sb_session_notify(void *data) {
 void sb_session_tick(SbSession *session, gint64 now) {
   poll_frames(session);
   // Of a run in grades nothing is shown before it is complete, unless nothing else is there.
-  if (session->ticket != 0 && session->fresh != NULL && session->shown != session->fresh &&
+  if (sb_session_computes(session) && session->fresh != NULL && session->shown != session->fresh &&
       !(session->heavy && session->shown != NULL) &&
       g_get_monotonic_time() - session->started > SB_SESSION_WATCH_US) {
     size_t published = 0;
@@ -209,10 +209,10 @@ void sb_session_tick(SbSession *session, gint64 now) {
   if (session->former != sb_session_is_former(session)) {
     sb_session_run_changed(session);
   }
-  if (more || (session->ticket != 0 && session->shown == NULL)) {
+  if (more || (sb_session_computes(session) && session->shown == NULL)) {
     sb_session_refresh_chart(session);
     sb_session_emit(session, SB_SIGNAL_FRAMES);
-  } else if (session->ticket != 0) {
+  } else if (sb_session_computes(session)) {
     // The earlier run is unchanged: nothing is redrawn, so that the run has the processors.
     sb_session_emit(session, SB_SIGNAL_PROGRESS);
   }
@@ -228,7 +228,7 @@ void sb_session_tick(SbSession *session, gint64 now) {
 }
 
 gboolean sb_session_wants_ticks(SbSession *session) {
-  return session->ticket != 0 || session->playhead.playing ||
+  return sb_session_computes(session) || session->playhead.playing ||
          (session->shown != NULL && !sb_displayed_run_complete(session->shown));
 }
 
@@ -237,8 +237,7 @@ gboolean sb_session_wants_ticks(SbSession *session) {
 static void drop_runs(SbSession *session) {
   session->edited = 0;
   session->latency = (SbEditLatency){NAN, NAN};
-  session->ticket = 0;
-  session->state = SB_SESSION_EMPTY;
+  sb_session_go(session, SB_REQUEST_NONE);
   sb_session_set_reference(&session->fresh, NULL);
   sb_session_set_reference(&session->shown, NULL);
   sb_session_set_reference(&session->earlier, NULL);
@@ -254,8 +253,6 @@ static void drop_runs(SbSession *session) {
 }
 
 void sb_session_clear_runs(SbSession *session) {
-  sb_session_cancel_source(&session->debounce);
-  sb_session_cancel_source(&session->later);
   sb_runner_cancel(session->runner);
   drop_runs(session);
   sb_session_run_changed(session);
@@ -283,8 +280,6 @@ void sb_session_dispose_runs(SbSession *session) {
   if (session->runner == NULL) {
     return;
   }
-  sb_session_cancel_source(&session->debounce);
-  sb_session_cancel_source(&session->later);
   g_clear_pointer(&session->runner, sb_runner_destroy);
   sb_session_drop_base(session);
   g_clear_pointer(&session->slopes, sb_runner_destroy);

@@ -17,7 +17,7 @@ void sb_session_set_reference(SbDisplayedRun **run, SbDisplayedRun *value) {
 // What views see ---------------------------------------------------------------------------------
 
 // What the displayed run is; whether it is of the present values is another question.
-SbSessionState sb_session_shown_state(const SbSession *session) {
+static SbSessionState shown_state(const SbSession *session) {
   switch (session->shown != NULL ? session->shown->chart.state : SB_CHART_EMPTY) {
   case SB_CHART_RUNNING:
   case SB_CHART_PARTIAL:
@@ -34,9 +34,9 @@ SbSessionState sb_session_shown_state(const SbSession *session) {
 // Whether the displayed run is of former values and nothing is about to replace it: an edit that a
 // short run answers at once does not make the pictures flicker.
 gboolean sb_session_is_former(SbSession *session) {
-  const bool soon =
-      session->debounce != 0 ||
-      (session->ticket != 0 && g_get_monotonic_time() - session->started <= SB_SESSION_WATCH_US);
+  const bool soon = sb_session_delays(session) ||
+                    (sb_session_computes(session) &&
+                     g_get_monotonic_time() - session->started <= SB_SESSION_WATCH_US);
   if (session->shown == NULL || (soon && !session->heavy)) {
     return FALSE;
   }
@@ -48,7 +48,7 @@ void sb_session_refresh_chart(SbSession *session) {
   memset(chart, 0, sizeof *chart);
   if (session->shown != NULL) {
     chart->run = session->shown->chart;
-  } else if (session->ticket != 0) {
+  } else if (sb_session_computes(session)) {
     // Nothing to show before the first frame; the axes are those of the values.
     chart->run.state = SB_CHART_RUNNING;
     chart->run.model = sb_session_model(session);
@@ -96,7 +96,12 @@ const SbChartData *sb_session_chart(SbSession *session) {
 // Questions --------------------------------------------------------------------------------------
 
 SbSessionState sb_session_state(SbSession *session) {
-  return session->state;
+  // A light run that waits for its timer begins before anybody sees the state.
+  const bool running =
+      session->request == SB_REQUEST_DELAYED ? session->heavy : session->request != SB_REQUEST_NONE;
+  return running                    ? SB_SESSION_RUNNING
+         : session->failure != NULL ? SB_SESSION_FAILED
+                                    : shown_state(session);
 }
 
 SbEditLatency sb_session_latency(SbSession *session) {
@@ -104,7 +109,7 @@ SbEditLatency sb_session_latency(SbSession *session) {
 }
 
 double sb_session_progress(SbSession *session) {
-  return session->ticket != 0 && session->fresh != NULL
+  return sb_session_computes(session) && session->fresh != NULL
              ? sb_run_handle_fraction(session->fresh->handle)
              : 0;
 }
@@ -191,7 +196,7 @@ gboolean sb_session_shows_former(SbSession *session) {
 }
 
 gboolean sb_session_awaits(SbSession *session) {
-  return session->former && session->state == SB_SESSION_RUNNING;
+  return session->former && sb_session_state(session) == SB_SESSION_RUNNING;
 }
 
 char *sb_session_former_text(SbSession *session) {

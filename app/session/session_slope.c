@@ -67,13 +67,12 @@ static bool is_wanted(const SbSession *session, int id) {
 // Whether a coarse run of a single edit is on its way: it is there as soon as slopes would be, and
 // on two cores they slow it down.
 static bool is_soon_there(const SbSession *session) {
-  const bool near = session->ticket != 0 && session->grade == SB_GRADE_NEAR;
-  return session->lone && session->edited != 0 && (near || session->debounce != 0);
+  const bool near = sb_session_computes(session) && session->grade == SB_GRADE_NEAR;
+  return session->lone && session->edited != 0 && (near || sb_session_delays(session));
 }
 
 static bool is_idle(const SbSession *session) {
-  return session->ticket == 0 && session->debounce == 0 && session->later == 0 &&
-         !session->playhead.playing;
+  return session->request == SB_REQUEST_NONE && !session->playhead.playing;
 }
 
 // The parameter whose slopes are to be found now; SB_SLOPE_NONE: none.
