@@ -22,11 +22,8 @@ static char *row_text(const SbThesisRow *row, double value) {
 // As row_text(), of a part of the row's values: to the place of their fifth digit, so that parts
 // add up as they are printed and none shows digits that a difference of five digits does not have.
 static char *share_text(const SbThesisRow *row, double value) {
-  const double whole[] = {row->printed, row->thesis, row->consistent};
-  double most = 0;
-  for (size_t i = 0; i < G_N_ELEMENTS(whole); i++) {
-    most = isfinite(whole[i]) ? fmax(most, fabs(whole[i])) : most;
-  }
+  // NaN are ignored.
+  const double most = fmax(fmax(fabs(row->printed), fabs(row->thesis)), fabs(row->consistent));
   const double place = value != 0 && most > 0 ? floor(log10(most)) - floor(log10(fabs(value))) : 0;
   return sb_quantity_round(value, row->si, row->shown, (int)fmax(fmin(5 - place, 5), 1));
 }
