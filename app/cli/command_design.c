@@ -32,7 +32,10 @@ static char *limits_text(const SbStudyFile *study, const SbDesign *design, int f
     if (limit->figure == figure) {
       g_autofree char *bound = sb_limit_format(figure, limit->low, limit->high);
       const double margin = sb_design_margin(design, study, k);
-      g_autofree char *by = sb_figure_format(figure, fabs(margin), NAN);
+      const int column = sb_study_column_of(study, figure);
+      // The limit is exact: the margin has the absolute error of the figure.
+      const double error = fabs(design->error[column] * design->figure[column] / margin);
+      g_autofree char *by = sb_figure_format(figure, fabs(margin), error);
       const bool active = design->limit_active[2 * k] || design->limit_active[2 * k + 1];
       g_string_append_printf(out, " %s: %s%s%s", bound, isnan(margin) ? "not known" : by,
                              isnan(margin) ? ""
@@ -53,7 +56,8 @@ static SbTable *make_table(const SbStudyFile *study, const SbDesign *design) {
   for (guint i = 0; i < study->figures->len; i++) {
     const int figure = g_array_index(study->figures, int, i);
     sb_table_add(table, SB_CELLS(sb_cell_text(sb_figure(figure)->path),
-                                 sb_cell_shown(sb_figure_format(figure, design->figure[i], NAN)),
+                                 sb_cell_shown(
+                                     sb_figure_format(figure, design->figure[i], design->error[i])),
                                  sb_cell_own(limits_text(study, design, figure))));
   }
   return table;
@@ -98,7 +102,8 @@ static int judge(const SbStudyFile *study, const SbDesign *design) {
     const SbLimit *limit = &study->limits.item[MAX(least, 0)];
     g_autofree char *bound = sb_limit_format(limit->figure, limit->low, limit->high);
     const int column = sb_study_column_of(study, limit->figure);
-    g_autofree char *value = sb_figure_format(limit->figure, design->figure[column], NAN);
+    g_autofree char *value =
+        sb_figure_format(limit->figure, design->figure[column], design->error[column]);
     if (least < 0) {
       (void)sb_cli_fail("nothing feasible was found that is as robust; this one meets the limits "
                         "themselves");

@@ -1,4 +1,5 @@
 // sealbench sensitivity: derivatives of a scene's figures by its parameters.
+#include "app/base/figure_text.h"
 #include "app/base/nearest.h"
 #include "app/cli/cli.h"
 #include "app/study/effects.h"
@@ -84,10 +85,6 @@ static int read_options(Options *options) {
 
 // ---- What people read ----
 
-static char *figure_text(int figure, double value) {
-  return sb_quantity_round(value, sb_figure(figure)->si, sb_figure(figure)->shown, 4);
-}
-
 // Adds a figure: its value, the parameters of the largest effect, and those without a derivative.
 static void add_figure(SbTable *table, const SbGradient *gradient, size_t figure,
                        const SbModel *model) {
@@ -97,7 +94,7 @@ static void add_figure(SbTable *table, const SbGradient *gradient, size_t figure
   const size_t parameters = sb_gradient_parameters(gradient);
   g_autofree SbEffect *effects = g_new(SbEffect, parameters + 1);
   const size_t count = sb_effects(effects, gradient, figure, model);
-  g_autofree char *text = figure_text(index, value);
+  g_autofree char *text = sb_figure_format(index, value, sb_gradient_value_error(gradient, figure));
   const char *reason = parameters > 0 ? sb_gradient_reason(gradient, figure, 0) : NULL;
   if (isnan(value)) {
     sb_table_note(table, "%s: - (%s)", sb_figure(index)->path,
@@ -108,12 +105,12 @@ static void add_figure(SbTable *table, const SbGradient *gradient, size_t figure
   for (size_t i = 0; i < count && i < ROWS; i++) {
     const SbEffect *effect = &effects[i];
     const SbParamId id = sb_gradient_parameter(gradient, effect->parameter);
-    const double error = 100 * effect->error / fabs(effect->change);
+    const double error = effect->error / fabs(effect->change);
     sb_table_add(table, SB_CELLS(sb_cell_text(sb_param(id)->key),
-                                 sb_cell_shown(figure_text(index, effect->change)),
+                                 sb_cell_shown(sb_figure_format(index, effect->change, error)),
                                  sb_cell_own(effect->tolerance ? sb_param_format(id, effect->step)
                                                                : g_strdup("5 %")),
-                                 sb_cell_shown(g_strdup_printf("%.1g %%", error))));
+                                 sb_cell_shown(g_strdup_printf("%.1g %%", 100 * error))));
   }
   if (count > ROWS) {
     sb_table_note(table, "  and %zu parameters of less effect: --json", count - ROWS);

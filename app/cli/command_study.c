@@ -194,8 +194,7 @@ static int print_statistics(const SbStudyFile *study, const SbAnswers *answers) 
   g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   size_t shown = 0, with = 0;
   for (size_t k = 0; k < answers->figures; k++) {
-    const SbFigure *figure = sb_figure(g_array_index(study->figures, int, k));
-    const char *si = figure->si, *unit = figure->shown;
+    const int figure = g_array_index(study->figures, int, k);
     SbSummaryOfSamples of;
     SbReport report = {0};
     const SbStatus status =
@@ -207,11 +206,12 @@ static int print_statistics(const SbStudyFile *study, const SbAnswers *answers) 
     if (of.count > 0 && shown < ROWS) {
       shown++;
       sb_table_add(table,
-                   SB_CELLS(sb_cell_text(figure->path), sb_cell_quantity(of.mean, si, unit, 4),
-                            sb_cell_quantity(of.deviation, si, unit, 4),
-                            sb_cell_quantity(of.quantile[1], si, unit, 4),
-                            sb_cell_quantity(of.quantile[2], si, unit, 4),
-                            sb_cell_quantity(of.quantile[3], si, unit, 4),
+                   SB_CELLS(sb_cell_text(sb_figure(figure)->path),
+                            sb_cell_shown(sb_study_statistic(figure, of.mean)),
+                            sb_cell_shown(sb_study_statistic(figure, of.deviation)),
+                            sb_cell_shown(sb_study_statistic(figure, of.quantile[1])),
+                            sb_cell_shown(sb_study_statistic(figure, of.quantile[2])),
+                            sb_cell_shown(sb_study_statistic(figure, of.quantile[3])),
                             sb_cell_text(of.count > 1 && !of.varies ? "does not vary" : NULL)));
     }
   }

@@ -10,9 +10,9 @@
 #include <math.h>
 #include <string.h>
 
-char *sb_design_value_text(int figure, double value) {
+char *sb_design_value_text(int figure, double value, double error) {
   char text[SB_FORMAT_MAX];
-  return g_strdup(sb_figure_text(text, figure, value, NAN));
+  return g_strdup(sb_figure_text(text, figure, value, error));
 }
 
 // Drawing -----------------------------------------------------------------------------------------
@@ -120,7 +120,7 @@ static void draw_place(SbDesignMapView *v, int place) {
   cairo_stroke(v->c->cr);
   g_autofree char *where = axis_text(v, of->axis);
   const int goal = g_array_index(v->answer->study->figures, int, 0);
-  g_autofree char *value = sb_design_value_text(goal, of->figure[0]);
+  g_autofree char *value = sb_design_value_text(goal, of->figure[0], of->error[0]);
   g_autofree char *text = in_plane ? g_strdup_printf("%s, %s", where, value)
                                    : g_strdup_printf(_("%s, %s; not in this plane"), where, value);
   write_beside(v, at, 14, best ? _("best found") : _("present"), text, color);

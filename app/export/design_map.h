@@ -34,8 +34,9 @@ void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
 void sb_design_scatter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                             const SbDesignAnswer *answer);
 
-// Returns "24.8 N": a value [SI] of a figure (index of sb_figure()) in its display unit.
-char *sb_design_value_text(int figure, double value);
+// Returns "24.8 N": a value [SI] of a figure (index of sb_figure()) with its relative error (NaN:
+// not known) in its display unit.
+char *sb_design_value_text(int figure, double value, double error);
 
 // Returns the content of the drawings as text, for screen readers.
 char *sb_design_text(const SbDesignAnswer *answer);

@@ -283,7 +283,8 @@ static void draw_one(SbCanvas *c, SbRect rect, const SbDesignAnswer *answer, siz
     draw_bins(c, &axes, of, at, figures, column, &limit, roles[place]);
     size_t valves = 0;
     const size_t beyond = beyond_of(at, figures, column, &limit, &valves);
-    g_autofree char *value = sb_design_value_text(limit.figure, at->figure[column]);
+    g_autofree char *value =
+        sb_design_value_text(limit.figure, at->figure[column], at->error[column]);
     g_autofree char *text =
         g_strdup_printf(place == SB_DESIGN_BEST ? _("best %s, %zu of %zu beyond")
                                                 : _("present %s, %zu of %zu beyond"),
@@ -368,7 +369,7 @@ char *sb_design_text(const SbDesignAnswer *answer) {
                              sb_param(id)->unit);
     }
     for (size_t i = 0; i < map->figures; i++) {
-      g_autofree char *value = sb_design_value_text(id_of(answer, i), at->figure[i]);
+      g_autofree char *value = sb_design_value_text(id_of(answer, i), at->figure[i], at->error[i]);
       g_string_append_printf(text, ", %s %s", sb_translation(sb_figure(id_of(answer, i))->label),
                              value);
     }

@@ -136,7 +136,8 @@ static void draw_statistics(SbReportPages *pages, SbReportStudyParts *study) {
     SbTableCell cell[G_N_ELEMENTS(columns)] = {sb_cell_own(sb_figure_label(figure))};
     for (size_t i = 0; i < G_N_ELEMENTS(value); i++) {
       const bool constant = i == 1 && of.count > 1 && !of.varies;
-      cell[i + 1] = sb_cell_shown(constant ? g_strdup("does not vary") : shown(figure, value[i]));
+      cell[i + 1] = sb_cell_shown(constant ? g_strdup("does not vary")
+                                           : sb_study_statistic(figure, value[i]));
     }
     sb_table_add(table, cell);
   }

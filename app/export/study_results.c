@@ -1,12 +1,19 @@
 // Tables of a study; see the header.
 #include "app/export/study_results.h"
 
+#include "app/base/figure_text.h"
+#include "app/base/unit.h"
 #include "engine/numeric/statistics.h"
 #include "engine/valve/shelf/shelf.h"
 
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+
+char *sb_study_statistic(int figure, double value) {
+  return sb_figure(figure)->digits == 0 && isfinite(value) ? sb_quantity_round(value, "1", "", 4)
+                                                           : sb_figure_format(figure, value, NAN);
+}
 
 size_t sb_study_done(const SbAnswers *answers) {
   size_t done = 0;

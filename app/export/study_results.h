@@ -9,6 +9,10 @@
 
 #include <stdio.h>
 
+// Returns a statistic [SI] of the samples' values of a figure (index of sb_figure()) in its display
+// unit, "28.70 N"; a number for a figure that is yes or no. "-" for NaN.
+char *sb_study_statistic(int figure, double value);
+
 // Returns the number of samples that are computed, those that failed included.
 size_t sb_study_done(const SbAnswers *answers);
 

@@ -173,7 +173,7 @@ void sb_section_painter_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
     return;
   }
   prepare(painter, &data->run);
-  SbSectionInstant instant = {.frame = frame};
+  SbSectionInstant instant = {.frame = frame, .summary = data->run.summary};
   for (int i = 0; i < SB_SEAL_COUNT && data->run.profile != NULL; i++) {
     instant.profile[i] = data->run.profile(data->run.source, frame->seal[i].profile);
   }

@@ -53,10 +53,12 @@ typedef struct {
   bool mesh;                 // draw the edges of the elements of solved rings
 } SbSectionView;
 
-// The instant to draw; everything is borrowed for the call. `profile` (NULL: none) is for the
-// insets; a ring without a solved shape (`ring` NULL) is drawn schematically.
+// The instant to draw; everything is borrowed for the call. `summary` has the errors of the run's
+// figures (NULL: it has not ended). `profile` (NULL: none) is for the insets; a ring without a
+// solved shape (`ring` NULL) is drawn schematically.
 typedef struct {
   const SbFrame *frame;
+  const SbSummary *summary;
   const SbContactProfile *profile[SB_SEAL_COUNT];
   const SbSealShape *ring[SB_SEAL_COUNT];
 } SbSectionInstant;

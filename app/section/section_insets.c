@@ -193,9 +193,11 @@ static void label_peak(const SbSectionInset *in) {
   const int figure = sb_figure_find(in->seal == SB_OUTER ? "seals.outer.pressure_peak_Pa"
                                                          : "seals.inner.pressure_peak_Pa");
   const SbSectionLabel style = {13, 700, SB_MIDDLE, in->color, in->body};
+  const SbSummary *summary = in->section->instant->summary;
   sb_section_label(in->section, CLAMP(x, in->rect.x + 50, in->right - 50),
                    sb_axis_at(&in->y, pressure) + (in->gasket ? 18 : -9), &style,
-                   sb_figure_text(value, figure, pressure, NAN));
+                   sb_figure_text(value, figure, pressure,
+                                  summary != NULL ? sb_figure_error(summary, figure) : NAN));
 }
 
 // The width of the contact, as a dimension.

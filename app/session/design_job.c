@@ -186,6 +186,7 @@ static SbStatus take_effects(SbDesignPlace *at, SbDesignJob *job, SbReport *repo
   for (size_t i = 0; gradient != NULL && i < job->answer->map.figures; i++) {
     const size_t found = sb_effects(effect, gradient, i, study->base);
     at->figure[i] = sb_gradient_value(gradient, i);
+    at->error[i] = sb_gradient_value_error(gradient, i);
     at->effects[i] = MIN(found, SB_DESIGN_EFFECTS);
     at->variance[i] = 0;
     for (size_t k = 0; k < found; k++) {
@@ -274,6 +275,10 @@ static SbStatus take_present(SbDesignJob *job, SbReport *report) {
                                  .cancelled = is_cancelled,
                                  .data = job};
     status = sb_slopes(at.figure, NULL, evaluator, &asked, NULL, report);
+    const SbSummary *summary = sb_evaluator_summary(evaluator);
+    for (size_t i = 0; summary != NULL && i < job->answer->map.figures; i++) {
+      at.error[i] = sb_figure_error(summary, job->figure[i]);
+    }
   }
   sb_evaluator_destroy(evaluator);
   for (guint k = 0; k < study->vary->len; k++) {
@@ -298,6 +303,7 @@ static SbStatus search(SbDesignJob *job, SbReport *report) {
     *at = (SbDesignPlace){.known = true, .fails = NAN};
     memcpy(at->value, found.value, study->vary->len * sizeof *at->value);
     memcpy(at->figure, found.figure, job->answer->map.figures * sizeof *at->figure);
+    memcpy(at->error, found.error, job->answer->map.figures * sizeof *at->error);
     place_on_map(at, job->answer);
   }
   unlock(job);

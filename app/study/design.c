@@ -435,7 +435,11 @@ static void judge(SbDesign *out, const View *view) {
   free(row);
 }
 
-static void take_warnings(SbDesign *out, const SbSummary *summary) {
+static void take_validity(SbDesign *out, const SbStudyFile *study, const SbSummary *summary) {
+  for (guint i = 0; i < study->figures->len; i++) {
+    out->error[i] =
+        summary != NULL ? sb_figure_error(summary, g_array_index(study->figures, int, i)) : NAN;
+  }
   g_free(out->warnings);
   out->warnings = summary != NULL ? g_memdup2(&summary->warnings, sizeof summary->warnings) : NULL;
 }
@@ -469,7 +473,7 @@ SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Sta
                                  .cancelled = problem->cancelled,
                                  .data = problem->data};
     status = sb_slopes(out->figure, NULL, evaluator, &asked, out->value, report);
-    take_warnings(out, sb_evaluator_summary(evaluator));
+    take_validity(out, study, sb_evaluator_summary(evaluator));
   }
   sb_evaluator_destroy(evaluator);
   free(view.slope);

@@ -16,11 +16,12 @@
 
 // The result. Freed by sb_design_release().
 typedef struct {
-  bool found;           // there is a design; else `value`, `figure` and `warnings` are NULL
-  bool feasible;        // it meets all limits
-  bool converged;       // the search ended by its tolerances
-  double *value;        // [vary]: parameters, in the order of study->vary [SI]
-  double *figure;       // [figures]: in the order of study->figures [SI]
+  bool found;     // there is a design; else `value`, `figure`, `error` and `warnings` are NULL
+  bool feasible;  // it meets all limits
+  bool converged; // the search ended by its tolerances
+  double *value;  // [vary]: parameters, in the order of study->vary [SI]
+  double *figure; // [figures]: in the order of study->figures [SI]
+  double *error;  // [figures]: relative errors of `figure`, as sb_figure_error()
   SbWarnings *warnings; // limits of validity of the figures; NULL: no design
   // min |gradient of the objective + multipliers x gradients of the active limits and bounds|
   // divided by |gradient of the objective|, with multipliers >= 0; 0 at an optimum.

@@ -70,8 +70,10 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
   Start *start = calloc(study->design.starts + 1, sizeof *start), best;
   out->value = calloc(study->vary->len + 1, sizeof *out->value);
   out->figure = calloc(study->figures->len + 1, sizeof *out->figure);
+  out->error = calloc(study->figures->len + 1, sizeof *out->error);
   SbStatus status = SB_OK;
-  if (problem == NULL || start == NULL || out->value == NULL || out->figure == NULL) {
+  if (problem == NULL || start == NULL || out->value == NULL || out->figure == NULL ||
+      out->error == NULL) {
     status = sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu starts", study->design.starts);
   } else {
     problem->cancelled = cancelled;
@@ -95,6 +97,7 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
 void sb_design_release(SbDesign *design) {
   free(design->value);
   free(design->figure);
+  free(design->error);
   g_free(design->warnings);
   *design = (SbDesign){0};
 }

@@ -208,6 +208,43 @@ static void test_told(void) {
   g_unlink(study);
 }
 
+// Returns the number and the unit that follow a name in a table; freed by g_free().
+static char *shown(const char *out, const char *name) {
+  char number[32], unit[8];
+  const char *at = strstr(out, name);
+  g_assert_nonnull(at);
+  g_assert_cmpint(sscanf(at + strlen(name), "%*[: ]%31s %7s", number, unit), ==, 2);
+  return g_strconcat(number, " ", unit, NULL);
+}
+
+// A figure has one rounding: its error of 2 % leaves three digits in every table.
+static void test_digits(void) {
+  const char *leak = "cycle.leakage_per_cycle_m3";
+  g_autofree char *path = g_build_filename(cli.folder, "x.study", NULL);
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\n"
+                      "models.fit = levels disc\noutput.tolerance = levels 0.1\n"
+                      "stem.pressure_diameter = uniform 5.7 mm .. 5.8 mm\n[design]\nstarts = 1\n"
+                      "objective = maximise " RETURN "\n[limits]\n%s = <= 30 pl\n",
+                      cli.scene, leak);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  CliResult ran =
+      CLI("run", cli.scene, "--set", "models.fit=disc", "--set", "output.tolerance=0.1");
+  CliResult slopes =
+      CLI("sensitivity", cli.scene, "--set", "models.fit=disc", "--set", "output.tolerance=0.1",
+          "--figures", leak, "--parameters", "stem.pressure_diameter");
+  CliResult designed = CLI("design", path);
+  g_autofree char *one = shown(ran.out, "Leakage per cycle");
+  g_autofree char *other = shown(slopes.out, leak), *third = shown(designed.out, leak);
+  g_assert_cmpstr(one, ==, "22.0 pl");
+  g_assert_cmpstr(other, ==, one);
+  g_assert_cmpstr(third, ==, one);
+  cli_clear(&ran);
+  cli_clear(&slopes);
+  cli_clear(&designed);
+  g_unlink(path);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -216,6 +253,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-design/robust", test_robust);
   g_test_add_func("/cli-design/marked", test_marked);
   g_test_add_func("/cli-design/told", test_told);
+  g_test_add_func("/cli-design/digits", test_digits);
   const int failed = g_test_run();
   cli_tear_down();
   return failed;

@@ -139,6 +139,10 @@ static void test_best(void) {
     g_assert_cmpfloat(best->value[k], ==, design.value[k]);
   }
   g_assert_true(sb_design_on_map(of, SB_DESIGN_BEST));
+  for (size_t i = 0; i < of->map.figures; i++) { // all have one: closed forms have the error 0
+    g_assert_cmpfloat(best->error[i], ==, design.error[i]);
+    g_assert_false(isnan(of->place[SB_DESIGN_PRESENT].error[i]));
+  }
   for (size_t i = 0; i < study->limits.count; i++) {
     const size_t column = (size_t)sb_design_answer_figure(of, study->limits.item[i].figure);
     double sum = 0, squares = 0;

@@ -324,6 +324,14 @@ static void test_labels(void) {
   g_assert_true(shows(&f.list, "drive 27.4 N"));
   g_assert_true(shows(&f.list, "inner seal leaves in"));
   g_assert_false(shows(&f.list, "no contact"));
+  // A peak has the digits that its error leaves.
+  SbSummary rough = *summary;
+  const int peak = sb_figure_find("seals.outer.pressure_peak_Pa");
+  rough.error[peak] = 0.03 * sb_figure_value(summary, peak);
+  g_assert_true(shows(&f.list, "1.407"));
+  SbSectionInstant instant = {.frame = &f.frames[c - 3], .summary = &rough};
+  sb_section_draw(f.section, &f.list, &f.view, &instant);
+  g_assert_true(shows(&f.list, "1.41") && !shows(&f.list, "1.407"));
   draw(&f, (c + d) / 2);
   g_assert_true(shows(&f.list, "Inner seal, no contact"));
   g_assert_true(shows(&f.list, "dose path open"));

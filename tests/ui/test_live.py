@@ -69,6 +69,8 @@ def the_first_view_is_solved(folder):
         assert stored and app.has("combo box", "Field")
         rings = app.find("toggle button", "Rings solved")
         assert rings.getState().contains(pyatspi.STATE_CHECKED)
+        # The panel Derived has the digits of the verdict.
+        assert app.label(r"^Return margin 4\.90\sN pass$")
         assert not app.find("push button", "Export").getState().contains(App.SENSITIVE)
         # The switch sets models.fit, one step of undo; what was shown comes back at once.
         app.press("toggle button", "Closed form")

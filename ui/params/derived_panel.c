@@ -134,8 +134,9 @@ static const char *name_of(const Panel *panel, int index) {
   return sb_translation(sb_figure(panel->figure[index])->label);
 }
 
-// The value, NAN: not known, for the reason `why` (NULL: nothing has run).
-static void show(Panel *panel, int index, double value, const char *why) {
+// Shows the figure of `of`, whose value is NaN for the reason `why` (NULL: nothing has run).
+static void show(Panel *panel, int index, const SbSummary *of, const char *why) {
+  const double value = sb_figure_value(of, panel->figure[index]);
   const Item *item = &items[index];
   panel->shown[index] = value;
   GtkStyleContext *style = gtk_widget_get_style_context(panel->verdict[index]);
@@ -150,7 +151,7 @@ static void show(Panel *panel, int index, double value, const char *why) {
     g_strlcpy(text, _("not known"), sizeof text);
   }
   if (!isnan(value)) {
-    sb_figure_text(text, panel->figure[index], value, 0);
+    sb_format_figure(text, of, panel->figure[index]);
   }
   const SbBand band = isnan(value) ? SB_BAND_NONE : band_of(panel, index, value);
   if (band != SB_BAND_NONE) {
@@ -198,14 +199,9 @@ static void refresh(Panel *panel) {
     sb_figures_of_model(&panel->model, model);
   }
   for (int i = 0; i < ITEMS; i++) {
-    int figure = panel->figure[i];
-    double value = sb_figure_value(&panel->model, figure);
-    const char *why = NULL;
-    if (isnan(value) && summary != NULL) {
-      value = sb_figure_value(summary, figure);
-      why = sb_figure_reason(summary, figure);
-    }
-    show(panel, i, value, why);
+    const bool solved = summary != NULL && isnan(sb_figure_value(&panel->model, panel->figure[i]));
+    show(panel, i, solved ? summary : &panel->model,
+         solved ? sb_figure_reason(summary, panel->figure[i]) : NULL);
   }
   gtk_label_set_text(GTK_LABEL(panel->note), former != NULL ? former : _("outer seal"));
   gtk_widget_set_tooltip_text(panel->note, former);

@@ -181,7 +181,7 @@ static void draw(cairo_t *cr, double area_width, double area_height, void *user)
   SbRect picture = picture_rect(view, area_width, area_height);
   const gboolean cutaway = sb_section_is_cutaway(view), enlarges = !cutaway && view->zoom > 1;
   SbSectionView how = view_of(view, now.run, picture, ran);
-  SbSectionInstant instant = {.frame = now.frame};
+  SbSectionInstant instant = {.frame = now.frame, .summary = ran ? data->run.summary : NULL};
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     instant.profile[i] = sb_run_profile(now.run, now.frame->seal[i].profile);
     instant.ring[i] = sb_run_shape(now.run, now.frame->seal[i].shape);

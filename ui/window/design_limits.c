@@ -248,12 +248,13 @@ static void set_end(GtkWidget *entry, int figure, double value) {
   }
 }
 
-static void set_value(GtkWidget *label, const SbLimit *limit, double value) {
+static void set_value(GtkWidget *label, const SbLimit *limit, double value, double error) {
   // The unit of the figure has a column of its own.
   SbFormatted parts;
-  sb_figure_parts(&parts, limit->figure, value, NAN);
+  sb_figure_parts(&parts, limit->figure, value, error);
   const bool own = strcmp(parts.unit, sb_figure(limit->figure)->shown) == 0;
-  g_autofree char *text = own ? g_strdup(parts.number) : sb_design_value_text(limit->figure, value);
+  g_autofree char *text =
+      own ? g_strdup(parts.number) : sb_design_value_text(limit->figure, value, error);
   gtk_label_set_text(GTK_LABEL(label), text);
   GtkStyleContext *style = gtk_widget_get_style_context(label);
   if (value < limit->low || value > limit->high) {
@@ -266,7 +267,7 @@ static void set_value(GtkWidget *label, const SbLimit *limit, double value) {
 static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesignAnswer *answer,
                      gboolean chosen) {
   const int column = answer != NULL ? sb_design_answer_figure(answer, limit->figure) : -1;
-  double value[SB_DESIGN_PLACES] = {NAN, NAN};
+  double value[SB_DESIGN_PLACES] = {NAN, NAN}, error[SB_DESIGN_PLACES] = {NAN, NAN};
   row->margin = NAN;
   row->active = FALSE;
   // The answer may be of other limits for a moment.
@@ -276,6 +277,7 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
   for (int place = 0; same && place < SB_DESIGN_PLACES; place++) {
     if (answer->place[place].known) {
       value[place] = answer->place[place].figure[column];
+      error[place] = answer->place[place].error[column];
       row->margin = sb_design_sigmas(answer, place, index);
       row->active = place == SB_DESIGN_BEST && (answer->found.limit_active[2 * index] ||
                                                 answer->found.limit_active[2 * index + 1]);
@@ -283,8 +285,8 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
   }
   set_end(row->end[0], limit->figure, limit->low);
   set_end(row->end[1], limit->figure, limit->high);
-  set_value(row->present, limit, value[SB_DESIGN_PRESENT]);
-  set_value(row->best, limit, value[SB_DESIGN_BEST]);
+  set_value(row->present, limit, value[SB_DESIGN_PRESENT], error[SB_DESIGN_PRESENT]);
+  set_value(row->best, limit, value[SB_DESIGN_BEST], error[SB_DESIGN_BEST]);
   g_autofree char *sigmas = isnan(row->margin)         ? g_strdup("–")
                             : row->margin > BAR_SIGMAS ? g_strdup_printf("> %d", BAR_SIGMAS)
                                                        : g_strdup_printf("%.1f", row->margin);

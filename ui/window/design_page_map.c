@@ -27,7 +27,7 @@ char *sb_design_page_picked_text(const SbDesignPage *page, const SbDesignAnswer 
     const int figure = g_array_index(answer->study->figures, int, i);
     const double value = sb_design_map_at(&answer->map, i, page->look.pick[0], page->look.pick[1]);
     g_autofree char *label = sb_translation_inside(sb_figure(figure)->label);
-    g_autofree char *shown = sb_design_value_text(figure, value);
+    g_autofree char *shown = sb_design_value_text(figure, value, NAN);
     g_string_append_printf(text, "%s%s %s", i > 0 ? ", " : "", label, shown);
   }
   return g_string_free(text, FALSE);
@@ -44,8 +44,8 @@ char *sb_design_page_models_text(SbDesignPage *page, const SbDesignAnswer *answe
   for (size_t i = 0; i < answer->map.figures; i++) {
     const int figure = g_array_index(answer->study->figures, int, i);
     g_autofree char *label = sb_translation_inside(sb_figure(figure)->label);
-    g_autofree char *here =
-        sb_design_value_text(figure, answer->place[SB_DESIGN_PRESENT].figure[i]);
+    const SbDesignPlace *present = &answer->place[SB_DESIGN_PRESENT];
+    g_autofree char *here = sb_design_value_text(figure, present->figure[i], present->error[i]);
     char there[SB_FORMAT_MAX];
     sb_format_figure(there, summary, figure);
     g_string_append_printf(text, "%s %s %s, %s", i > 0 ? ";" : "", label, here, there);

@@ -392,6 +392,7 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
   }
   for (size_t i = 0; i < out->figures; i++) {
     const char *why = sb_evaluator_reason(by, out->figure[i]);
+    out->value_error[i] = sb_figure_error(sb_evaluator_summary(by), out->figure[i]);
     work->size[i] = sb_gradient_size(sb_evaluator_summary(by), out->figure[i]);
     for (size_t k = 0; why != NULL && k < out->parameters; k++) {
       sb_gradient_refuse(work, k, i, "%s", why);

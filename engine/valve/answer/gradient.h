@@ -74,6 +74,9 @@ double sb_gradient_at(const SbGradient *gradient, size_t parameter);
 // Returns the value of figure number `figure` at the base, SI; NaN if it was not computed.
 double sb_gradient_value(const SbGradient *gradient, size_t figure);
 
+// Returns the estimated relative error of sb_gradient_value(), as sb_figure_error() of a run.
+double sb_gradient_value_error(const SbGradient *gradient, size_t figure);
+
 // Returns the derivative of a figure with respect to a parameter: SI unit of the figure per SI unit
 // of the parameter. NaN: sb_gradient_reason() returns why.
 double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter);

@@ -20,6 +20,7 @@ struct SbGradient {
   int *figure;           // [figures] indices for sb_figure()
   SbParamId *parameter;  // [parameters]
   double *at, *value;    // [parameters] values at the base; [figures] values at the base [SI]
+  double *value_error;   // [figures] relative errors of `value`
   double *slope, *error; // [figures][parameters] derivatives and their absolute errors [SI]
   unsigned char *why;    // [figures][parameters] number of the reason from 1; 0: none
   bool *solved;          // [figures][parameters] the slope is a difference of full solves

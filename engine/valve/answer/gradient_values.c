@@ -10,6 +10,7 @@ void sb_gradient_destroy(SbGradient *gradient) {
     free(gradient->parameter);
     free(gradient->at);
     free(gradient->value);
+    free(gradient->value_error);
     free(gradient->slope);
     free(gradient->error);
     free(gradient->why);
@@ -41,6 +42,10 @@ double sb_gradient_at(const SbGradient *gradient, size_t parameter) {
 
 double sb_gradient_value(const SbGradient *gradient, size_t figure) {
   return gradient->value[figure];
+}
+
+double sb_gradient_value_error(const SbGradient *gradient, size_t figure) {
+  return gradient->value_error[figure];
 }
 
 double sb_gradient_slope(const SbGradient *gradient, size_t figure, size_t parameter) {
@@ -81,14 +86,15 @@ SbGradient *sb_gradient_make(const SbQuestion *question, const SbParamId *parame
   out->parameter = calloc(count + 1, sizeof *out->parameter);
   out->at = calloc(count + 1, sizeof *out->at);
   out->value = calloc(n + 1, sizeof *out->value);
+  out->value_error = calloc(n + 1, sizeof *out->value_error);
   out->slope = calloc(cells + 1, sizeof *out->slope);
   out->error = calloc(cells + 1, sizeof *out->error);
   out->why = calloc(cells + 1, sizeof *out->why);
   out->solved = calloc(cells + 1, sizeof *out->solved);
   out->fixed = calloc(cells + 1, sizeof *out->fixed);
   if (out->figure == NULL || out->parameter == NULL || out->at == NULL || out->value == NULL ||
-      out->slope == NULL || out->error == NULL || out->why == NULL || out->solved == NULL ||
-      out->fixed == NULL) {
+      out->value_error == NULL || out->slope == NULL || out->error == NULL || out->why == NULL ||
+      out->solved == NULL || out->fixed == NULL) {
     sb_gradient_destroy(out);
     return NULL;
   }
