@@ -75,6 +75,27 @@ bool sb_hardness_parse(double *modulus, const char *text, GError **error) {
   return true;
 }
 
+bool sb_hardness_difference(double *out, double at, const char *text, GError **error) {
+  double points = 0;
+  const Scale *scale = read_hardness(&points, text);
+  if (scale == NULL) {
+    return false;
+  }
+  double low = scale->low, high = scale->high;
+  if (!(at >= scale->modulus(low) && at <= scale->modulus(high))) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "a difference in %s is known next to a mean of %g to %g %s only: give it in MPa",
+                scale->name, low, high, scale->name);
+    return false;
+  }
+  for (double middle; middle = 0.5 * (low + high), high - low > 1e-9;) {
+    *(scale->modulus(middle) < at ? &low : &high) = middle;
+  }
+  const double step = 1e-3;
+  *out = points * (scale->modulus(low + step) - scale->modulus(low - step)) / (2 * step);
+  return true;
+}
+
 char *sb_hardness_note(const char *text) {
   double hardness = 0, modulus = 0;
   const Scale *scale = read_hardness(&hardness, text);

@@ -23,6 +23,11 @@ bool sb_hardness_applies(SbParamId id);
 // text has no unit of hardness; false with SB_APP_ERROR_INPUT if the hardness is out of range.
 bool sb_hardness_parse(double *modulus, const char *text, GError **error);
 
+// Reads "2 Shore A" as a small difference and writes the difference of Young's modulus [Pa] by the
+// slope of the relation at the modulus `at` [Pa]. Returns false without setting *error if the text
+// has no unit of hardness; false with SB_APP_ERROR_INPUT if the relation does not hold at `at`.
+bool sb_hardness_difference(double *out, double at, const char *text, GError **error);
+
 // Returns a sentence with the modulus of such a text, the relation and its scatter; NULL for any
 // other text.
 char *sb_hardness_note(const char *text);

@@ -1,4 +1,5 @@
 // Lines of [vary] and [tolerances]: a parameter or a variable, and how it varies.
+#include "app/base/hardness.h"
 #include "app/document/expression.h"
 #include "app/document/study_file_private.h"
 
@@ -25,8 +26,18 @@ static bool fail(GError **error, const char *format, ...) {
   return false;
 }
 
-// A difference of two values of a parameter.
-static bool read_difference(double *out, const SbParam *param, const char *text, GError **error) {
+// A difference of two values of a parameter, one of which is `at` (NaN: not known).
+static bool read_difference(double *out, const SbVary *vary, double at, const char *text,
+                            GError **error) {
+  const SbParam *param = sb_param(vary->id);
+  GError *hardness = NULL;
+  if (sb_hardness_applies(vary->id) && sb_hardness_difference(out, at, text, &hardness)) {
+    return true;
+  }
+  if (hardness != NULL) {
+    g_propagate_error(error, hardness);
+    return false;
+  }
   g_autofree char *trimmed = g_strstrip(g_strdup(text));
   const char *shown = sb_quantity_is_point(param->unit) ? "K" : param->unit;
   return sb_quantity_parse(out, trimmed, param->si, shown, error);
@@ -35,7 +46,7 @@ static bool read_difference(double *out, const SbParam *param, const char *text,
 // A value of the parameter, within its range, or of a tolerance.
 static bool read_value(double *out, const SbVary *vary, const char *text, GError **error) {
   if (vary->offset) {
-    return read_difference(out, sb_param(vary->id), text, error);
+    return read_difference(out, vary, NAN, text, error);
   }
   g_autofree char *trimmed = g_strstrip(g_strdup(text));
   const bool variable = vary->id == SB_VARY_VARIABLE;
@@ -104,7 +115,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   if (!read_value(&of->a, vary, mean, error) ||
       !(vary->id == SB_VARY_VARIABLE
             ? read_value(&of->b, vary, deviation, error)
-            : read_difference(&of->b, sb_param(vary->id), deviation, error))) {
+            : read_difference(&of->b, vary, vary->offset ? NAN : of->a, deviation, error))) {
     return false;
   }
   if (!(of->b > 0)) {

@@ -233,6 +233,37 @@ static void test_shipped(void) {
   }
 }
 
+// A deviation in points of hardness has the slope of the relation at the mean.
+static void test_hardness(void) {
+  static const struct {
+    const char *text;
+    double deviation; // by hand [Pa]; NaN: refused
+  } cases[] = {
+      {"[vary]\nseal.modulus = normal 70 ShoreA, 2 ShoreA", 0.510783e6},
+      {"[vary]\nseal.outer.modulus = normal 5.5205 MPa, 2 shore a within 60 ShA .. 75 ShA",
+       0.51078e6},
+      {"[vary]\nseal.modulus = normal 50 IRHD, 3 IRHD", 0.280238e6},
+      {"[vary]\nseal.modulus = normal 70 Shore A, 0.5 MPa", 0.5e6},
+      {"[vary]\nseal.modulus = normal 0.5 MPa, 2 Shore A", NAN},
+      {"[vary]\nhousing.modulus = normal 3 GPa, 2 Shore A", NAN},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autofree char *text = g_strconcat(cases[i].text, "\n[study]\nsamples = 5\n", NULL);
+    g_autoptr(SbStudyFile) study = load(text, issues);
+    g_assert_true((study != NULL) == !isnan(cases[i].deviation));
+    if (study != NULL) {
+      const SbVary *vary = &g_array_index(study->vary, SbVary, 0);
+      g_assert_cmpfloat(fabs(vary->distribution.b / cases[i].deviation - 1), <, 1e-5);
+    }
+  }
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_assert_null(
+      load("[vary]\nseal.modulus = normal 0.5 MPa, 2 Shore A\n[study]\nsamples = 5\n", issues));
+  g_assert_cmpuint(issues->len, ==, 1);
+  g_assert_nonnull(strstr(((SbIssue *)issues->pdata[0])->text, "give it in MPa"));
+}
+
 // Normal variates with the correlation that was asked for.
 static void test_correlation(void) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -352,6 +383,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/study-file/grid", test_grid);
   g_test_add_func("/study-file/groups", test_groups);
   g_test_add_func("/study-file/shipped", test_shipped);
+  g_test_add_func("/study-file/hardness", test_hardness);
   g_test_add_func("/study-file/correlation", test_correlation);
   g_test_add_func("/study-file/blocks", test_blocks);
   g_test_add_func("/study-file/rubber", test_rubber);
