@@ -29,6 +29,7 @@ import contextlib
 import ctypes
 import glob
 import math
+import numbers
 import os
 import threading
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -179,6 +180,13 @@ def _name(value: str) -> bytes:
     return value.encode()
 
 
+def _number(key: str, value: Any) -> float:
+    """A parameter's value for the library."""
+    if not isinstance(value, numbers.Real):
+        raise TypeError(f"{key}: a number is needed, not {type(value).__name__}")
+    return float(value)
+
+
 def _path(value: str | os.PathLike[str]) -> bytes:
     """A path for the library."""
     path = os.fsencode(value)
@@ -312,17 +320,22 @@ class Scene:
         """Sets a parameter from a text with unit ("1.63 mm", "reynolds") or a number in SI."""
         name = _name(key)
         text = _name(value) if isinstance(value, str) else None
+        number = _number(key, value) if text is None else math.nan
         with self._use() as scene:
             if text is not None:
                 self._check(scene, _lib.sb_scene_set_text(scene, name, text))
             else:
-                self._check(scene, _lib.sb_scene_set(scene, name, value))
+                self._check(scene, _lib.sb_scene_set(scene, name, number))
 
     def __delitem__(self, key: str) -> None:
         """Takes the scene's own value back: its valve's or the default is in force again."""
         name = _name(key)
         with self._use() as scene:
             self._check(scene, _lib.sb_scene_unset(scene, name))
+
+    def __len__(self) -> int:
+        """Number of parameters."""
+        return len(PARAMETERS)
 
     def __contains__(self, key: object) -> bool:
         return key in PARAMETERS
@@ -419,13 +432,11 @@ class Scene:
             index += 1
         return list(found)
 
-    def __len__(self) -> int:
-        """Frames of the last run."""
+    @property
+    def frame_count(self) -> int:
+        """Number of frames of the last run; 0 before it."""
         with self._use() as scene:
             return int(_lib.sb_scene_frame_count(scene))
-
-    def __bool__(self) -> bool:
-        return True
 
     def frames(self, *quantities: str) -> list[Array]:
         """An array over the frames of the last run for each quantity."""
@@ -461,7 +472,7 @@ class Scene:
         given = dict(overrides or {})
         wanted = [figures] if isinstance(figures, str) else list(figures)
         keys = (_Text * max(len(given), 1))(*(_name(key) for key in given))
-        values = (_Double * max(len(given), 1))(*given.values())
+        values = (_Double * max(len(given), 1))(*(_number(key, value) for key, value in given.items()))
         paths = (_Text * max(len(wanted), 1))(*(_name(path) for path in wanted))
         out = (_Double * max(len(wanted), 1))()
         with self._use() as scene:

@@ -6,5 +6,5 @@ scene["models.fit"] = "ring"
 load = scene.evaluate(["seals.outer.load_N"])["seals.outer.load_N"]
 del scene["models.fit"]
 scene.run()
-force, peak = scene.figure("cycle.stages.B.force_N"), max(scene.profile(len(scene) // 4).pressure)
+force, peak = scene.figure("cycle.stages.B.force_N"), max(scene.profile(scene.frame_count // 4).pressure)
 print(f"ring {load:.17g} N, B {force:.17g} N, peak {peak:.17g} Pa")

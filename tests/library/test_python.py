@@ -49,7 +49,7 @@ check('a range', (status, key) == ('range', 'gland.radial_space') and '0.0001 to
 status, key, text = failure(lambda: scene.__setitem__('gland.radial_spac', 1.0))
 check('an unknown key', (status, key) == ('input', 'gland.radial_spac'), text)
 status, _, text = failure(lambda: scene.figure('cycle.force_peak_N'))
-check('no run yet', status == 'input' and 'no run' in text and len(scene) == 0, text)
+check('no run yet', status == 'input' and 'no run' in text and scene.frame_count == 0, text)
 status, _, text = failure(lambda: sealbench.Scene('/nowhere.scene'))
 check('no file', status == 'io' and '/nowhere.scene' in text, text)
 status, _, text = failure(lambda: sealbench.Scene(text='[sealbench]\nformat = 1\nkind = valve\n[gland]\n'
@@ -58,12 +58,12 @@ check('every issue of a file', status == 'input' and len(text.splitlines()) == 2
 
 scene.run()
 time, force, friction = scene.frames('time_s', 'force_N', 'seals.outer.friction_N')
-check('frames', len(time) == len(force) == len(friction) == len(scene) > 100
+check('frames', len(time) == len(force) == len(friction) == scene.frame_count > 100
       and all(a <= b for a, b in zip(time, time[1:])))
 check('figures', abs(max(force) / scene.figure('cycle.force_peak_N') - 1) < 1e-9)
 film = 'seals.outer.film_by_model.reynolds'
 check('a reason', math.isnan(scene.figure(film)) and 'closed form' in scene.reason(film))
-profile = scene.profile(len(scene) // 4)
+profile = scene.profile(scene.frame_count // 4)
 check('a profile', len(profile.x) == len(profile.film) > 50 and profile.model != ''
       and max(profile.pressure) > 0.5e6)
 status, _, text = failure(lambda: scene.profile(10**6))
@@ -162,6 +162,7 @@ check('a shipped scene by its name', shipped())
 with sealbench.Scene(SCENES + 'quick-look.scene') as scene:
     everything = dict(scene)
     check('a mapping of parameters', list(scene) == list(sealbench.PARAMETERS) == list(everything)
+          and len(scene) == len(list(scene))
           and everything['gland.radial_space'] == 1.36e-3 and 'gland.radial_space' in scene
           and 'gland' not in scene and 3 not in scene and dict(scene.items()) == everything)
     check('one figure as a str', scene.evaluate('seals.outer.load_N')
@@ -174,6 +175,15 @@ with sealbench.Scene(SCENES + 'quick-look.scene') as scene:
                        ('a path', lambda: sealbench.Scene(SCENES + 'quick-look.scene\0x'))):
         status, _, text = failure(call)
         check('a NUL in ' + name, status == 'input' and 'NUL' in text, text)
+    for name, call in (('a value', lambda value: scene.__setitem__('gland.radial_space', value)),
+                       ('an override', lambda value: scene.evaluate('seals.outer.load_N',
+                                                                    {'gland.radial_space': value}))):
+        for value in (None, b'1', [1.36e-3]):
+            try:
+                call(value)
+                check(f'{name} that is no number', False, repr(value))
+            except TypeError as error:
+                check(f'{name} that is no number', 'gland.radial_space' in str(error), error)
     try:
         scene[3]
         check('a key that is no text', False)
