@@ -77,6 +77,10 @@ char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t
   int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat info;
   char *text = NULL;
+  if (fd < 0 && *path == '\0') {
+    sb_issues_add(issues, "\"\"", 0, NULL, NULL, "the name of the file is empty");
+    return NULL;
+  }
   if (fd < 0) {
     return add_errno(issues, shown);
   }

@@ -103,8 +103,8 @@ bool sb_cli_quiet(void) {
   return common.quiet;
 }
 
-// Removes a "--" before the operands. Returns whether their number is in [least, most]; false with
-// a message.
+// Removes a "--" before the operands. Returns whether their number is in [least, most] and none is
+// empty; false with a message.
 static bool has_operands(int *argc, char **argv, int least, int most, const SbCommand *command) {
   // A "--" that separates operands stays in argv.
   if (*argc > 1 && strcmp(argv[1], "--") == 0) {
@@ -116,6 +116,13 @@ static bool has_operands(int *argc, char **argv, int least, int most, const SbCo
     sb_cli_fail("%s: usage: sealbench %s %s",
                 operands < least ? "too few operands" : "too many operands", command->name,
                 command->usage);
+  }
+  for (int i = 1; i < *argc; i++) {
+    if (*argv[i] == '\0') {
+      sb_cli_fail("operand %d: the name is empty: usage: sealbench %s %s", i, command->name,
+                  command->usage);
+      return false;
+    }
   }
   return operands >= least && operands <= most;
 }

@@ -286,7 +286,7 @@ static int write_outputs(const Options *options, const SbCliAnswers *of) {
   }
   if (options->json != NULL) {
     SbReport report = {0};
-    g_autofree char *json = sb_study_json(study, drawn, answers, of->cpus, &report);
+    g_autofree char *json = sb_study_json(study, drawn, answers, of->cpus, of->store, &report);
     return json != NULL ? sb_cli_emit(json, options->json) : sb_cli_status(report.status, &report);
   }
   const bool streamed = options->csv != NULL && strcmp(options->csv, "-") == 0;
@@ -325,6 +325,11 @@ static int check_scripted(const char *what, const char *text) {
 
 // The job script of an array of shards, each with a store of its own, on one thread each.
 static int emit_slurm(const Options *options, const SbStudyFile *study) {
+  if (options->csv != NULL || options->json != NULL) {
+    return sb_cli_fail("--emit-slurm: computes nothing, so there is nothing for %s; merge the "
+                       "stores of its jobs first",
+                       options->csv != NULL ? "--csv" : "--json");
+  }
   g_autofree char *store = sb_cli_store_path(options->store, study);
   GError *unusable = NULL;
   if (store != NULL && !sb_store_check_name(store, &unusable)) {

@@ -439,7 +439,7 @@ void sb_json_study_files(SbJson *json, const SbStudyFile *study) {
 }
 
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
-                    const char *cpus, SbReport *report) {
+                    const char *cpus, const char *store, SbReport *report) {
   SbJson json;
   sb_json_document(&json);
   sb_json_study_files(&json, study);
@@ -450,6 +450,8 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const S
   sb_json_count(&json, "done", sb_study_done(answers));
   sb_json_count(&json, "failed", sb_study_failed(answers));
   sb_json_string(&json, "cpu", cpus);
+  g_autofree char *full = store != NULL ? g_canonicalize_filename(store, NULL) : NULL;
+  sb_json_string(&json, "store", full);
   // Of samples about failures no statistics of figures.
   SbStatus status = drawn->reliability == NULL ? put_figures(&json, study, answers, report) : SB_OK;
   if (status == SB_OK && study->limits.count > 0) {

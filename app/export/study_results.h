@@ -63,7 +63,7 @@ char *sb_study_typical(const SbStudyFile *study, SbShelfSpecies species);
 void sb_json_study_files(SbJson *json, const SbStudyFile *study);
 
 // Returns the JSON document of `sealbench study`. `drawn`: the points of the method (shares.h);
-// `cpus`: name and number of processors, for the document. NULL with `report` if a statistic could
-// not be computed.
+// `cpus`: name and number of processors, `store`: path of the store (NULL: none), for the document.
+// NULL with `report` if a statistic could not be computed.
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
-                    const char *cpus, SbReport *report);
+                    const char *cpus, const char *store, SbReport *report);

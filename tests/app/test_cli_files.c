@@ -417,6 +417,8 @@ static void test_narrow_terminals(void) {
 // An empty value of an option is a usage error.
 static void test_empty_options(void) {
   IN_SAYS(1, "-o, --output: is empty", "run", "quick-look", "-o", "");
+  IN_SAYS(1, "operand 1: the name is empty", "run", "");
+  IN_SAYS(1, "operand 2: the name is empty", "compare", "quick-look", "");
   IN_SAYS(1, "--json: is empty", "run", "quick-look", "--json", "");
   IN_SAYS(1, "--set: is empty", "plan", "quick-look", "--set", "");
   IN_SAYS(1, "-o, --output: is empty", "study", "gland", "-o", "");

@@ -227,6 +227,13 @@ static void test_slurm(void) {
   g_assert_cmpint(result.code, ==, 1);
   g_assert_nonnull(strstr(result.err, "control character"));
   cli_clear(&result);
+  const char *ignored[] = {"--csv", "--json"};
+  for (size_t i = 0; i < G_N_ELEMENTS(ignored); i++) {
+    result = CLI("study", study, "--shard", "1/3", "--emit-slurm", script, ignored[i], "-");
+    g_assert_cmpint(result.code, ==, 1);
+    g_assert_nonnull(strstr(result.err, ignored[i]));
+    cli_clear(&result);
+  }
   g_assert_false(g_file_test(script, G_FILE_TEST_EXISTS));
   result = CLI("study", study, "--shard", "1/3", "--emit-slurm", script);
   g_assert_cmpint(result.code, ==, 0);

@@ -44,8 +44,10 @@ static void test_json(void) {
   g_assert_cmpfloat(share, >, cli_number(root, "limits.0.interval_95.0"));
   g_assert_cmpfloat(share, <, cli_number(root, "limits.0.interval_95.1"));
   cli_clear(&result);
-  // The store is beside the study: a second time nothing is computed.
+  // The store is beside the study, as the document states: a second time nothing is computed.
   g_autofree char *store = path_of("x.store");
+  JsonObject *document = json_node_get_object(root);
+  g_assert_cmpstr(json_object_get_string_member(document, "store"), ==, store);
   g_assert_true(g_file_test(store, G_FILE_TEST_EXISTS));
   result = CLI("study", study, CLOSED, "--progress", "lines", "-q");
   g_assert_cmpint(result.code, ==, 0);

@@ -52,6 +52,8 @@ status, _, text = failure(lambda: scene.figure('cycle.force_peak_N'))
 check('no run yet', status == 'input' and 'no run' in text and scene.frame_count == 0, text)
 status, _, text = failure(lambda: sealbench.Scene('/nowhere.scene'))
 check('no file', status == 'io' and '/nowhere.scene' in text, text)
+status, _, text = failure(lambda: sealbench.Scene(''))
+check('an empty name', 'the name of the file is empty' in text, (status, text))
 status, _, text = failure(lambda: sealbench.Scene(text='[sealbench]\nformat = 1\nkind = valve\n[gland]\n'
                                                   'radial_space = 9 m\naxial_width = 9 m\n'))
 check('every issue of a file', status == 'input' and len(text.splitlines()) == 2, text)
