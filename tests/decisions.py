@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 """No code decides by text: by a figure's path, a parameter's key, the name of a view, a column that
-has an enumeration next to it, or the text of a message. The catalogues have enumerations for all of
-them, and their readers alone compare their strings.
+has an enumeration next to it, the text of a message, or the code of a warning. The catalogues have
+enumerations for the names, and their readers alone compare their strings.
 
 decisions.py SOURCE, TAP on standard output.
 """
@@ -20,6 +20,10 @@ ALLOWED = {
     ('app/document/document_parts.c', 'g_str_has_prefix(group, "part.")'): 'group of a file',
     ('app/export/thesis_results.c', 'strstr(reason, "(sealbench ")'): 'text of a study file',
     ('app/export/thesis_results.c', 'strstr(reason, "(meson test ")'): 'text of a study file',
+    ('app/export/studies.c', 'g_str_has_prefix(study->warnings.item[i].code, "study-gap-")'):
+        'gaps of all kinds begin so',
+    ('engine/valve/studies/study_stribeck.c', 'strcmp(warning->code, "film-speed")'):
+        'the sentence of the run is that of the gap',
     ('app/cli/cli.c', 'strstr(message, "--")'): 'GLib names an unknown option in its message only',
     ('app/cli/command_check.c', 'strstr(error->message, ": ")'):
         'removes the file that begins the message, which the issue names itself',
@@ -29,6 +33,8 @@ COLUMN = re.compile(r'\b(?:figure|row|param|column|axis|series|view|sb_(?:figure
                     r'\brequest(?:->|\.)view\b')
 MESSAGE = re.compile(r'(?:->|\.)(?:text|message)\b(?!\[)|'
                      r'\bsb_\w*(?:reason|error|failure)\(|^\s*(?:why|reason|cause|message)\b')
+
+CODE = re.compile(r'(?:->|\.)code\b')
 
 
 def catalogue(source):
@@ -90,6 +96,8 @@ def decisions(text, names):
             yield what, 'a column'
         elif any(MESSAGE.search(argument) for argument in own):
             yield what, 'a message'
+        elif any(CODE.search(argument) for argument in own):
+            yield what, 'a code of a warning'
 
 
 def decisions_in(source, names):
@@ -128,6 +136,7 @@ EARLIER = [
     'bool difference = strstr(column->name, "against") != NULL;',
     'if (strcmp(view->name, "dashboard") == 0) {',
     'if (strcmp(job->request.view, "report") == 0) {',
+    'if (strcmp(out->warnings.item[i].code, "no-contact") != 0) {',
 ]
 # Lines that read the user's text.
 READING = [

@@ -233,16 +233,6 @@ static void judge_walls(SbFit *out, const SbFitProblem *in) {
   }
 }
 
-// Every warning except that of a ring without contact means that a model is outside its range.
-static void judge_validity(SbFit *out) {
-  out->valid = true;
-  for (size_t i = 0; i < out->warnings.count; i++) {
-    if (strcmp(out->warnings.item[i].code, "no-contact") != 0) {
-      out->valid = false;
-    }
-  }
-}
-
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report) {
   const double start = sb_clock_seconds();
   memset(out, 0, sizeof *out);
@@ -254,8 +244,8 @@ SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report)
   status = models[problem->model].solve(out, problem, report);
   judge_stretch(out, problem);
   judge_walls(out, problem);
-  judge_validity(out);
-  out->valid = out->valid && status == SB_OK;
+  // A warning means that a model is outside its range, except that which states "no contact".
+  out->valid = out->warnings.count <= (out->touches ? 0 : 1) && status == SB_OK;
   out->solver.wall_s = sb_clock_seconds() - start;
   return status == SB_OK ? sb_succeed(report) : status;
 }
