@@ -256,12 +256,7 @@ static bool has_gap(const double *value, size_t count) {
 
 // Why a study has no value at some points: the first gap that a model left, else `otherwise`.
 static const char *gap_reason(const SbStudy *study, const char *otherwise) {
-  for (size_t i = 0; i < study->warnings.count; i++) {
-    if (g_str_has_prefix(study->warnings.item[i].code, "study-gap-")) {
-      return study->warnings.item[i].text;
-    }
-  }
-  return otherwise;
+  return study->missing > 0 ? study->warnings.item[study->missing - 1].text : otherwise;
 }
 
 void sb_json_study_reasons(SbJson *json, const SbStudy *study, size_t index) {

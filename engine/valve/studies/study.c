@@ -123,8 +123,7 @@ static void end_early(SbStudyWork *work) {
   if (work->status == SB_ERROR_NOT_CONVERGED) {
     const SbReport *why = work->report;
     sb_study_gap(work->out, NAN, why->text);
-    sb_warn(&work->out->warnings, "study-gap-end", why->input, "the study ended early: %s",
-            why->text);
+    sb_study_miss(work->out, "end", why->input, "the study ended early", why->text);
     work->status = SB_OK;
   }
 }
@@ -259,6 +258,16 @@ void sb_study_gap(SbStudy *out, double x, const char *why) {
     sb_message(out->gap, sizeof out->gap, "%s", why);
   }
   out->complete = false;
+}
+
+void sb_study_miss(SbStudy *out, const char *what, int input, const char *head, const char *why) {
+  char code[48];
+  const size_t before = out->warnings.count;
+  sb_text(code, sizeof code, "study-gap-%s", what);
+  sb_warn(&out->warnings, code, input, "%s: %s", head, why);
+  out->missing = out->missing > 0               ? out->missing
+                 : out->warnings.count > before ? out->warnings.count
+                                                : 0;
 }
 
 void sb_study_note(SbStudy *out, const char *format, ...) {

@@ -118,10 +118,9 @@ static void account(SbStudyWork *work, const Seen *seen, int line, double x) {
     return;
   }
   const char *what = seen->fit >= 0 ? sb_fit_kind((SbFitModel)seen->fit)->name : "study";
-  char code[48];
-  sb_text(code, sizeof code, "study-gap-%s", what);
-  sb_warn(&out->warnings, code, sb_input_resolve(seen->report.input),
-          "%s has no value at some points: %s", what, seen->report.text);
+  char head[96];
+  sb_text(head, sizeof head, "%s has no value at some points", what);
+  sb_study_miss(out, what, sb_input_resolve(seen->report.input), head, seen->report.text);
   const bool bridged = work->design->is_bridged != NULL && work->design->is_bridged(work, line);
   if (seen->status == SB_ERROR_NOT_CONVERGED && !bridged) {
     sb_study_gap(out, x, seen->report.text);

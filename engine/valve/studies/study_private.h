@@ -115,6 +115,9 @@ SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evalua
 // study is not complete.
 void sb_study_gap(SbStudy *out, double x, const char *why);
 
+// Warns that points have no value: "HEAD: WHY". The code of the warning ends with `what`.
+void sb_study_miss(SbStudy *out, const char *what, int input, const char *head, const char *why);
+
 // Returns the net load per length of the outer seal of work->base without friction, under its
 // pressures [N/m]; NaN if it was not computed.
 double sb_study_net_load(SbStudyWork *work);
