@@ -43,9 +43,10 @@ SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double
 // Returns the arc of a piece with a bulge.
 SbArc sb_cad_circle(const SbCadPiece *piece);
 
-// Returns the place of a point on the line or circle of a piece as a fraction of its length, next
-// to its middle: a point just before the start has a small negative place. Writes the distance of
-// the point from the line or circle.
+// Returns the position along a piece of the point on its line or circle that is nearest to (x, y):
+// 0 at its start, 1 at its end. On a circle, of the positions that differ by full turns, the one
+// nearest to 0.5: slightly before the start it is slightly negative. Writes the distance of (x, y)
+// from the line or circle [m], never negative, to *off.
 double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 
 // Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
@@ -56,9 +57,10 @@ double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 // drawn twice or close to no outline. The caller then calls sb_cad_settle().
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
 
-// Sets the profile of a body, and `revolved`, from the pieces of its section: the outline with the
-// largest revolved volume; or body->why, unless that is set. Adds a warning to `cad` if there are
-// several outlines.
+// Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the
+// axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines(): the outline
+// with the largest revolved volume; or body->why, unless that is set. Adds a warning to `cad` if
+// there are several outlines.
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
 // Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
@@ -84,8 +86,8 @@ char *sb_cad_axis_text(const double *through, const double *direction);
 // Returns a drawing without bodies. `format` is static. Freed by sb_cad_free().
 SbCad *sb_cad_new(const char *format);
 
-// Reads a STEP file by sealbench-cad. `shown` is the printable path for messages. Errors as
-// sb_cad_read().
+// Reads a STEP file by sealbench-cad into a settled drawing (sb_cad_settle()). `shown` is the
+// printable path for messages. Errors as sb_cad_read().
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error);
 
@@ -93,6 +95,7 @@ SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices 
 // "solid".
 bool sb_cad_is_stl(const char *data, gsize length);
 
-// Reads the bytes of an STL file as one body, named like the file `path`. Errors as sb_cad_read().
+// Reads the bytes of an STL file as one body, named like the file `path`, into a settled drawing.
+// Errors as sb_cad_read().
 SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
                         const SbCadChoices *choices, GError **error);

@@ -13,7 +13,7 @@ SbRunCache *sb_run_cache_new(void);
 // Frees the cache and its references.
 void sb_run_cache_free(SbRunCache *cache);
 
-// Stores a reference to a complete run in place of an earlier one of the same values and drawings.
+// Adds a reference to a complete run, in place of an earlier one of the same values and drawings.
 // The least recently used runs to which only the cache refers are removed to stay within the
 // bounds.
 void sb_run_cache_put(SbRunCache *cache, SbDisplayedRun *run);

@@ -83,12 +83,14 @@ char *sb_warning_codes(const SbWarnings *warnings, const char *separator);
 // ---- For pools: how sb_answers_get() distributes the work ----
 
 // Computes the base and returns an evaluator with its ring states, for the warm start of the
-// samples; the same in every process. NULL if no warm start is used (no solved rings, `cold`,
-// `start` is given, or the base failed). Freed by sb_evaluator_destroy().
+// samples; the same in every process. NULL: the base has no solved rings or failed, asked->cold, or
+// asked->start is given, which is then the warm start. Freed by sb_evaluator_destroy().
 SbEvaluator *sb_answer_start(const SbQuestions *asked);
 
 // Computes one sample: writes its figures to out->value[figures], which the caller has set, and
-// fills the other members, whose strings are freed by g_free(). `start` is the warm start or NULL;
+// fills the other members, whose strings are freed by g_free(). `evaluator`
+// (sb_evaluator_create()) is the work memory of the calling thread, one for each thread, for any
+// number of samples. `start` is the warm start: asked->start, else sb_answer_start(), else NULL.
 // `cancelled` (may be NULL) is called with `data`. Returns out->status.
 SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
                    const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
@@ -115,6 +117,6 @@ struct SbAnswerPool {
   // sb_answer_poll() regularly. Returns when all are done or it must stop.
   void (*compute)(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo, size_t count);
   // Not NULL: this process computes samples that the pool of another process requests, until that
-  // one ends; it has no store.
+  // one ends; it has no store. All its answers are then SB_ANSWER_MISSING.
   void (*serve)(const SbQuestions *asked);
 };

@@ -28,8 +28,10 @@
 // Sequence for a solution `s`: set s->solver and s->c; for rough rows complete s->c with
 // sb_ehl_rough_case(). Build the mesh (sb_ehl_layers_mesh() or sb_ehl_rough_mesh()), then set the
 // initial guess (sb_ehl_layers_guess(), sb_ehl_rough_guess() or sb_ehl_carry()), then call
-// sb_ehl_newton(), then sb_ehl_results(). sb_ehl_start(), _refine(), _follow() and _beside() do all
-// of this; the solver's `problem`, `info` and `tolerance` must be set before.
+// sb_ehl_newton(), then sb_ehl_results(). sb_ehl_start(), sb_ehl_refine(), sb_ehl_follow() and
+// sb_ehl_from_base() do this for a complete case (all fields of SbEhlCase set, for rough rows by
+// sb_ehl_rough_case()), except the results; the solver's `problem`, `info` and `tolerance` must be
+// set before. sb_ehl_solve() sets these itself.
 //
 // A solver is used by one thread at a time. Functions without an SbReport report errors by their
 // status only.
@@ -326,8 +328,10 @@ void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolutio
                     const SbFilmScale *scale);
 
 // Cold start: solves `c` with its degree as solver->now, directly or by continuation from an easier
-// case, and determines cavity and meniscus (c->supply and c->layers.meniscus are those of a flooded
-// inlet). `supply` is the supplied flux film, infinite: flooded.
+// case. `c` is that of a flooded inlet: c->supply is infinite, c->layers.meniscus -infinity, and
+// c->layers.end is SB_EHL_FULL with an outlet pressure above that of rupture, else SB_EHL_RUPTURE.
+// The function finds a cavity before a flooded outlet (SB_EHL_REFORM and `reform` of
+// solver->now->c) and the meniscus itself. `supply` is the supplied flux film, infinite: flooded.
 // SB_ERROR_NOT_CONVERGED; SB_ERROR_CANCELLED; SB_ERROR_INFEASIBLE: a starved inlet together with a
 // cavity before a flooded outlet.
 SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply);

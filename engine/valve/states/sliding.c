@@ -248,6 +248,10 @@ SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double
   state->rest_area_share = rest.rest_area_share;
   state->rest_area = rest.rest_area;
   state->rest_load = rest.rest_load;
+  if (status != SB_OK) { // those of the film before are not its own
+    state->lambda = state->real_area_share = NAN;
+    state->boundary_area = state->boundary_load = state->friction_viscous = NAN;
+  }
   share_kinetic(state);
   return status;
 }

@@ -53,7 +53,8 @@ double sb_sliding_shear(double pressure, double *slope, const void *law);
 // -0.21; asymptotic: -0.2).
 #define SB_FILM_LAW_LOAD_POWER 0.3
 
-// Returns the kinetic friction of a state whose full contact is on the land, a magnitude [N].
+// Returns the kinetic friction that a solved state has with its full contact on the land, a
+// magnitude [N]; the run multiplies it by the part of the contact that is on the land.
 double sb_sliding_friction(const SbSealState *state);
 
 // Work memory of one seal's evaluations, with its last solutions. Used by one thread at a time.
@@ -207,8 +208,10 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
                         const SbSlidingBody *body);
 
 // Replaces the film of the solved `state` of `task` by `film`, and updates lambda, real area and
-// kinetic friction by sb_sliding_refilm() with `roughness`. `fitted`: the film was solved on the
-// fitted body.
+// kinetic friction by sb_sliding_refilm() with `roughness` (with coupled asperities 1; the values
+// that sb_sliding_refilm() then requires are taken from `film`). `fitted`: the film was solved on
+// the fitted body. If the friction of this film cannot be computed, lambda, real area and kinetic
+// friction are NaN.
 void sb_sliding_set_film(SbSealState *state, const SbSlidingTask *task, const SbFilm *film,
                          bool fitted, double roughness);
 
@@ -227,12 +230,13 @@ void sb_sliding_full_friction(SbSealState *state);
 // caller has set, for a surface `roughness` times as rough as the model's. With coupled asperities
 // `roughness` must be 1, and the caller sets real_area_share, boundary_load and friction_viscous
 // too, in the full form that sb_sliding_full_friction() gives. Values at rest are not changed.
+// After an error lambda, real area and kinetic friction are NaN.
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report);
 
 // Changes a solved state to a surface `roughness` times as rough as the model's: real area, kinetic
 // and static friction. Solves nothing, because fit and film do not depend on roughness; not for
-// coupled asperities, whose film does.
+// coupled asperities, whose film does. Errors as sb_sliding_refilm().
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
