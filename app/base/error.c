@@ -39,11 +39,17 @@ bool sb_app_error_choose(GError **error, const char *key, const char *values, co
   va_start(arguments, format);
   g_autofree char *problem = g_strdup_vprintf(format, arguments);
   va_end(arguments);
-  const char *how = values == NULL || *values != '\0' ? "specify it with" : "omit";
-  g_autofree char *remedy = key != NULL ? g_strdup_printf(": %s --%s", how, key) : g_strdup("");
+  const bool any = values != NULL && *values != '\0';
+  g_autofree char *list = g_strconcat(any ? "=" : "", values, NULL);
+  g_strdelimit(list, "\n", '|');
+  g_autofree char *remedy =
+      key == NULL ? g_strdup("")
+                  : g_strdup_printf(": %s --%s%s",
+                                    any || values == NULL ? "specify it with" : "omit", key, list);
   GError *own = NULL;
   sb_app_error_input(&own, "%s%s", problem, remedy);
-  sb_choice_init(sb_app_error_get_private(own), key, values, strlen(remedy));
+  const char *own_key = key != NULL && strchr(key, '=') != NULL ? strchr(key, '=') + 1 : key;
+  sb_choice_init(sb_app_error_get_private(own), own_key, values, strlen(remedy));
   g_propagate_error(error, own);
   return false;
 }

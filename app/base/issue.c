@@ -75,6 +75,16 @@ bool sb_issues_add_choice(GPtrArray *issues, const char *file, int line, const c
   return false;
 }
 
+void sb_issues_forget_key(GPtrArray *issues, const char *allowed) {
+  SbIssue *issue = issues->pdata[issues->len - 1];
+  if (issue->choice.key != NULL) {
+    g_clear_pointer(&issue->key, g_free);
+    g_free(issue->allowed);
+    issue->allowed = g_strdup(allowed);
+    sb_choice_clear(&issue->choice);
+  }
+}
+
 void sb_note_add(GPtrArray *notes, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);

@@ -37,6 +37,10 @@ bool sb_issues_add_choice(GPtrArray *issues, const char *file, int line, const c
                           const char *values, bool remedy, const char *format, ...)
     G_GNUC_PRINTF(7, 8);
 
+// Takes key and choice from the last issue, if it has a choice, for a file without keys: the file
+// itself must then have what `allowed` states. The list is not empty.
+void sb_issues_forget_key(GPtrArray *issues, const char *allowed);
+
 // Appends a formatted sentence to a list of char *.
 void sb_note_add(GPtrArray *notes, const char *format, ...) G_GNUC_PRINTF(2, 3);
 

@@ -10,17 +10,12 @@
 #include <glib.h>
 #include <poll.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 static bool reads_pipes;
 
 void sb_reader_read_pipes(void) {
   reads_pipes = true;
-}
-
-bool sb_reader_reads_pipes(void) {
-  return reads_pipes;
 }
 
 static void add_too_large(GPtrArray *issues, const char *shown, size_t bytes_max, double bytes) {
@@ -71,34 +66,42 @@ char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t by
   return text;
 }
 
-char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
-                     GPtrArray *issues) {
+int sb_reader_open(struct stat *info, const char *path, const char *shown, GPtrArray *issues) {
   // O_NONBLOCK: a pipe without a writer must not block the program.
-  int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-  struct stat info;
-  char *text = NULL;
+  const int fd = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   if (fd < 0 && *path == '\0') {
     sb_issues_add(issues, "\"\"", 0, NULL, NULL, "the name of the file is empty");
-    return NULL;
-  }
-  if (fd < 0) {
-    return add_errno(issues, shown);
-  }
-  if (fstat(fd, &info) != 0) {
+  } else if (fd < 0 || fstat(fd, info) != 0) {
     add_errno(issues, shown);
-  } else if (S_ISDIR(info.st_mode)) {
+  } else if (S_ISDIR(info->st_mode)) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is a folder, not a file");
-  } else if (reads_pipes && S_ISFIFO(info.st_mode)) {
-    text = sb_reader_load_stream(length, fd, shown, bytes_max, issues);
-  } else if (!S_ISREG(info.st_mode)) {
+  } else if (!S_ISREG(info->st_mode) && !(reads_pipes && S_ISFIFO(info->st_mode))) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is not a regular file");
-  } else if ((guint64)info.st_size > bytes_max) {
-    add_too_large(issues, shown, bytes_max, (double)info.st_size);
   } else {
-    sb_output_note_input(&info);
+    if (S_ISREG(info->st_mode)) {
+      sb_output_note_input(info);
+    }
+    return fd;
+  }
+  if (fd >= 0) {
+    close(fd);
+  }
+  return -1;
+}
+
+char *sb_reader_load(size_t *length, const char *path, const char *shown, size_t bytes_max,
+                     GPtrArray *issues) {
+  struct stat info;
+  const int fd = sb_reader_open(&info, path, shown, issues);
+  char *text = NULL;
+  if (fd >= 0 && S_ISREG(info.st_mode) && (guint64)info.st_size > bytes_max) {
+    add_too_large(issues, shown, bytes_max, (double)info.st_size);
+  } else if (fd >= 0) {
     text = sb_reader_load_stream(length, fd, shown, bytes_max, issues);
   }
-  close(fd);
+  if (fd >= 0) {
+    close(fd);
+  }
   return text;
 }
 

@@ -6,6 +6,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <sys/stat.h>
 
 // A line of a key file. Strings are owned by the entry.
 typedef struct {
@@ -19,8 +20,10 @@ typedef struct {
 // each file once and may wait for its writer. To be called at the start of the program.
 void sb_reader_read_pipes(void);
 
-// Returns whether this process reads pipes in place of files.
-bool sb_reader_reads_pipes(void);
+// Opens the regular file `path` (or pipe, see sb_reader_read_pipes()) for reading without waiting
+// for anything else, and writes its state to *info. Returns the descriptor, which the caller
+// closes; -1 with one issue, in which `shown` names the file.
+int sb_reader_open(struct stat *info, const char *path, const char *shown, GPtrArray *issues);
 
 // Returns the content of the regular file `path` (or pipe, see sb_reader_read_pipes()) of at most
 // `bytes_max` bytes, *length bytes and a terminating 0; freed by g_free(). Does not

@@ -3,22 +3,19 @@
 // equally but give other values are an issue. See text_table.h.
 #include "app/base/text_table.h"
 
-#include "app/base/output.h"
 #include "app/base/reader.h"
 #include "app/base/text_table_private.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <math.h>
 #include <stdint.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 // Lines that are looked at, copied.
 typedef struct {
   GPtrArray *line; // of GString
   size_t head;     // of them from the start of the file, without a gap
+  bool quoted;     // one has a quote
 } Sample;
 
 enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into memory
@@ -96,6 +93,7 @@ static void take_lines(Sample *sample, SbTextTableLines *lines, size_t from, siz
        i++) {
     g_ptr_array_add(sample->line, g_string_new_len(line->str, (gssize)MIN(line->len, LINE_BYTES)));
     sample->head += from == 0;
+    sample->quoted |= strchr(line->str, '"') != NULL;
   }
 }
 
@@ -125,14 +123,19 @@ typedef struct {
 SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDialect *dialect) {
   SbTextTableCell cell;
   SbTextTableShape shape = {0};
+  const bool pairs = dialect->separator == SB_TEXT_TABLE_PAIRS;
   const char *at = line->len > 0 && strspn(line->str, "#%!") == 0 ? line->str : NULL;
   for (size_t i = 0; (dialect->matrix || i < SB_TEXT_TABLE_COLUMNS_MAX) &&
                      sb_text_table_cell(&cell, &at, line->str + line->len, dialect->separator);
        i++) {
     const guint64 bit = G_GUINT64_CONSTANT(1) << MIN(i, SB_TEXT_TABLE_COLUMNS_MAX - 1);
+    const char *mark = pairs ? memchr(cell.text, ',', cell.length) : NULL;
+    const size_t decimals = mark != NULL ? (size_t)(cell.text + cell.length - mark - 1) : 0;
+    shape.decimals = shape.decimals == 0 ? decimals : shape.decimals;
     double value;
     SbTextTableClock clock;
-    if (sb_text_table_number(&value, &cell, dialect, &shape.saw)) {
+    if (sb_text_table_number(&value, &cell, dialect, &shape.saw) &&
+        (!pairs || isnan(value) || (decimals > 0 && decimals == shape.decimals))) {
       shape.numeric |= bit;
     } else if (!dialect->matrix && sb_text_table_clock(&clock, &cell)) {
       shape.clocks |= bit;
@@ -149,7 +152,7 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
 static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
                        const SbTextTableDialect *dialect) {
   if (dialect->matrix) {
-    return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0;
+    return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 && a->decimals == b->decimals;
   }
   return a->cells == b->cells && (a->texts & (b->numeric | b->clocks)) == 0 &&
          (b->texts & (a->numeric | a->clocks)) == 0 && (a->numeric & b->clocks) == 0 &&
@@ -164,9 +167,10 @@ static bool is_row(const SbTextTableShape *shape, const SbTextTableDialect *dial
 static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) {
   enum { SHAPES = 32 };
   SbTextTableShape seen[SHAPES];
-  size_t count = 0, rows[SHAPES] = {0};
+  size_t count = 0, names = 0, rows[SHAPES] = {0};
   for (guint i = 0; i < sample->line->len; i++) {
     const SbTextTableShape shape = sb_text_table_shape(sample->line->pdata[i], dialect);
+    names = (size_t)__builtin_popcountll(shape.texts) == shape.cells ? shape.cells : names;
     size_t at = 0;
     while (at < count && !same_shape(&seen[at], &shape, dialect)) {
       at++;
@@ -193,9 +197,12 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
       fit = (Fit){*dialect, seen[i], score};
     }
   }
+  // Commas are separators, or decimal marks, as in a line of names.
+  fit.score *= dialect->matrix && names > 1 && names == fit.shape.cells ? 1.01 : 1;
   // Who sets marks between thousands mostly sets them everywhere.
   const unsigned both = SB_TEXT_TABLE_SAW_GROUPS | SB_TEXT_TABLE_SAW_LONG;
-  if ((fit.shape.saw & both) == both || (fit.shape.saw & SB_TEXT_TABLE_SAW_BLANK) != 0) {
+  if ((fit.shape.saw & both) == both || (fit.shape.saw & SB_TEXT_TABLE_SAW_BLANK) != 0 ||
+      (dialect->matrix && (fit.shape.saw & SB_TEXT_TABLE_SAW_PADDED) != 0)) {
     fit.score *= 0.5;
   }
   return fit;
@@ -205,11 +212,10 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
 static bool accept(const SbTextTable *table, const Sample *sample, const Fit *best,
                    const Fit *rival, GPtrArray *issues) {
   if (best->shape.cells != rival->shape.cells) {
-    return sb_issues_add(
-        issues, table->file->shown, 0, "separator", NULL,
-        "is ambiguous: %zu columns with decimal commas or %zu columns separated by "
-        "commas: write decimal points, or separate by semicolons",
-        MIN(best->shape.cells, rival->shape.cells), MAX(best->shape.cells, rival->shape.cells));
+    return sb_issues_add_choice(
+        issues, table->file->shown, 0, "decimal", "point\ncomma", false,
+        "is ambiguous: %zu columns with decimal commas or %zu columns separated by commas",
+        best->shape.cells, rival->shape.cells);
   }
   const bool grouped = ((best->shape.saw | rival->shape.saw) & SB_TEXT_TABLE_SAW_GROUPS) != 0;
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
@@ -236,11 +242,8 @@ static bool accept(const SbTextTable *table, const Sample *sample, const Fit *be
 // The best fit of all that are wished for; false with an issue.
 static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *sample,
                          const SbTextTableDialect *wish, GPtrArray *issues) {
-  static const char separators[] = {'\t', ';', ',', '|', ' '}, marks[] = {'.', ','};
-  bool quoted = false;
-  for (guint i = 0; i < sample->line->len; i++) {
-    quoted |= strchr(((GString *)sample->line->pdata[i])->str, '"') != NULL;
-  }
+  static const char separators[] = {'\t', ';', SB_TEXT_TABLE_PAIRS, ',', '|', ' '};
+  static const char marks[] = {'.', ','};
   *best = (Fit){0};
   Fit rival = {0};
   for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
@@ -249,11 +252,13 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
       const SbTextTableDialect dialect = {.encoding = table->dialect.encoding,
                                           .separator = separators[s],
                                           .decimal = marks[m],
+                                          .dates = wish->dates,
                                           .thousands = wish->matrix ? '\0' : marks[1 - m],
                                           .matrix = wish->matrix};
       if ((wish->separator != '\0' && wish->separator != separators[s]) ||
           (wish->decimal != '\0' && wish->decimal != marks[m]) ||
-          (separators[s] == marks[m] && !quoted)) {
+          (separators[s] == marks[m] && !sample->quoted) ||
+          (separators[s] == SB_TEXT_TABLE_PAIRS && (marks[m] != ',' || !wish->matrix))) {
         continue;
       }
       const Fit fit = try_dialect(sample, &dialect);
@@ -273,6 +278,13 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
         wish->matrix
             ? "contains no numbers"
             : "has no rows of two numbers or more, separated by tab, semicolon, comma, | or blank");
+  }
+  const unsigned zeros = SB_TEXT_TABLE_SAW_PADDED, marks_seen = zeros | SB_TEXT_TABLE_SAW_DECIMAL;
+  if (wish->matrix && best->dialect.separator == ',' && wish->decimal == '\0' &&
+      (best->shape.saw & marks_seen) == zeros) {
+    return sb_issues_add_choice(
+        issues, table->file->shown, 0, "decimal", "point", false,
+        "is ambiguous: cells such as 012 are integers, or the decimals behind a decimal comma");
   }
   return rival.score == 0 || accept(table, sample, best, &rival, issues);
 }
@@ -299,9 +311,7 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
 
 // Finds the line where the longest block of rows begins, and the names above the block.
 static void find_block(SbTextTable *table, const Sample *sample) {
-  typedef struct {
-    size_t first, rows;
-  } Found;
+  // Names -> index of the first row, number of rows.
   g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
   size_t most = 0;
   SbTextTableBlock block = {0};
@@ -316,15 +326,15 @@ static void find_block(SbTextTable *table, const Sample *sample) {
       continue;
     }
     const char *names = block.names != NULL ? block.names : "";
-    Found *found = g_hash_table_lookup(blocks, names);
+    size_t *found = g_hash_table_lookup(blocks, names);
     if (found == NULL) {
-      found = g_new0(Found, 1);
-      found->first = i;
+      found = g_new0(size_t, 2);
+      found[0] = i;
       g_hash_table_insert(blocks, g_strdup(names), found);
     }
-    if (++found->rows > most) {
-      most = found->rows;
-      table->header_lines = found->first;
+    if (++found[1] > most) {
+      most = found[1];
+      table->header_lines = found[0];
       g_free(table->file->names);
       table->file->names = g_strdup(block.names);
     }
@@ -410,22 +420,17 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
 
 SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
                                 GPtrArray *issues) {
-  const int file = open(path, O_RDONLY | O_NONBLOCK | O_CLOEXEC);
   struct stat info;
+  const int file = sb_reader_open(&info, path, path, issues);
   size_t length = 0;
   char *owned = NULL;
   FILE *stream = NULL;
-  if (file < 0 || fstat(file, &info) != 0) {
-    sb_issues_add(issues, path, 0, NULL, NULL, "%s", g_strerror(errno));
-  } else if (S_ISFIFO(info.st_mode) && sb_reader_reads_pipes()) {
+  if (file >= 0 && S_ISFIFO(info.st_mode)) {
     owned = sb_reader_load_stream(&length, file, path, PIPE_BYTES, issues);
     stream = owned != NULL ? fmemopen(owned, MAX(length, 1), "r") : NULL;
-  } else if (!S_ISREG(info.st_mode)) {
-    sb_issues_add(issues, path, 0, NULL, NULL, "is not a regular file");
-  } else if (info.st_size == 0) {
+  } else if (file >= 0 && info.st_size == 0) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is empty");
-  } else {
-    sb_output_note_input(&info);
+  } else if (file >= 0) {
     length = (size_t)info.st_size;
     stream = fdopen(file, "r");
   }

@@ -26,7 +26,7 @@ static SbTextTableCell trimmed(const char *text, const char *end) {
 }
 
 static bool ends_cell(char c, char separator) {
-  return separator == ' ' ? is_blank(c) : c == separator;
+  return separator == ' ' ? is_blank(c) : c == (separator == SB_TEXT_TABLE_PAIRS ? ',' : separator);
 }
 
 // Returns the end of the text in quotes with which a cell begins at `c`; `c` if it begins with none
@@ -67,7 +67,9 @@ bool sb_text_table_cell(SbTextTableCell *cell, const char **at, const char *end,
   const char *const first = c;
   c = skip_quoted(c, end, separator);
   c += separator == ' ' && end - c >= 7 && g_ascii_strncasecmp(c, "no data", 7) == 0 ? 7 : 0;
-  while (c < end && !ends_cell(*c, separator)) {
+  int marks = separator == SB_TEXT_TABLE_PAIRS; // of decimals, in the cell
+  while (c < end &&
+         (!ends_cell(*c, separator) || (c > first && g_ascii_isdigit(c[-1]) && marks-- > 0))) {
     c++;
   }
   *cell = trimmed(first, c);
@@ -188,7 +190,9 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
     return false;
   }
   if (saw != NULL) {
-    *saw |= seen | (run > 3 && (seen & SB_TEXT_TABLE_SAW_GROUPS) == 0 ? SB_TEXT_TABLE_SAW_LONG : 0);
+    const bool padded = *first == '0' && (run > 1 || (whole && plain[0] == '-'));
+    *saw |= (padded ? SB_TEXT_TABLE_SAW_PADDED : 0) | seen |
+            (run > 3 && (seen & SB_TEXT_TABLE_SAW_GROUPS) == 0 ? SB_TEXT_TABLE_SAW_LONG : 0);
   }
   return true;
 }
@@ -239,22 +243,21 @@ bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
   return *c == '\0';
 }
 
-bool sb_text_table_days(long *days, const SbTextTableClock *clock) {
+bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates) {
   const int *date = clock->date;
-  const bool year_first = date[0] > 31, month_first = !year_first && date[1] > 12;
+  const bool year_first = date[0] > 31;
+  const bool month_first = !year_first && (date[1] > 12 || (dates == 'm' && date[0] <= 12));
   const int year = year_first ? date[0] : date[2];
   const int month = month_first ? date[0] : date[1];
   const int day = year_first ? date[2] : month_first ? date[1] : date[0];
   // 03/02: a point alone is between day and month.
-  const bool ambiguous =
-      !year_first && !month_first && date[0] <= 12 && clock->mark != '.' && date[0] != date[1];
+  const bool ambiguous = dates == '\0' && !year_first && !month_first && date[0] <= 12 &&
+                         clock->mark != '.' && date[0] != date[1];
   if (ambiguous ||
       !g_date_valid_dmy((GDateDay)MIN(day, 200), (GDateMonth)MIN(month, 200), (GDateYear)year)) {
     return false;
   }
-  GDate at;
-  g_date_clear(&at, 1);
-  g_date_set_dmy(&at, (GDateDay)day, (GDateMonth)month, (GDateYear)year);
-  *days = (long)g_date_get_julian(&at);
+  g_autoptr(GDate) at = g_date_new_dmy((GDateDay)day, (GDateMonth)month, (GDateYear)year);
+  *days = (long)g_date_get_julian(at);
   return true;
 }

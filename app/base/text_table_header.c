@@ -216,10 +216,7 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
   GPtrArray *texts = g_ptr_array_new();
   for (size_t i = 0; i < MIN(count, HEADER_LINES); i++) {
     g_autofree char *copy = g_strndup(line[i]->str, MIN(line[i]->len, HEADER_BYTES));
-    char *text = copy;
-    while (*text != '\0' && strchr("#;%!/ \t", *text) != NULL) {
-      text++;
-    }
+    char *text = copy + strspn(copy, "#;%!/ \t");
     g_strdelimit(text, "\t", ' ');
     g_ptr_array_add(texts, sb_printable(text, strlen(text)));
   }

@@ -50,7 +50,8 @@ enum {
   SB_TEXT_TABLE_SAW_DECIMAL = 1,
   SB_TEXT_TABLE_SAW_GROUPS = 2, // a mark between thousands
   SB_TEXT_TABLE_SAW_LONG = 4,   // four digits or more and no mark between them
-  SB_TEXT_TABLE_SAW_BLANK = 8   // a blank between thousands
+  SB_TEXT_TABLE_SAW_BLANK = 8,  // a blank between thousands
+  SB_TEXT_TABLE_SAW_PADDED = 16 // a zero before other digits, or -0: no program writes integers so
 };
 
 // Reads a cell as a number in this dialect. Returns false, with *out not changed, if it is none.
@@ -69,12 +70,13 @@ typedef struct {
 bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell);
 
 // Writes the number of days of a date since a fixed one. Returns false if it is ambiguous which
-// number is the day and which the month.
-bool sb_text_table_days(long *days, const SbTextTableClock *clock);
+// number is the day and which the month, and `dates` (of a dialect) does not state it.
+bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates);
 
 // Kinds of a line's cells, a bit each.
 typedef struct {
-  size_t cells; // of a matrix all; else at most SB_TEXT_TABLE_COLUMNS_MAX
+  size_t cells;    // of a matrix all; else at most SB_TEXT_TABLE_COLUMNS_MAX
+  size_t decimals; // number of digits behind each mark, with SB_TEXT_TABLE_PAIRS; else 0
   guint64 numeric, clocks, texts;
   unsigned saw; // marks of the numbers
 } SbTextTableShape;

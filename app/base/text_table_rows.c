@@ -12,10 +12,11 @@ typedef struct {
   double day; // seconds of whole days so far
 } Days;
 
-static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
+static bool add_days(double *out, Days *days, const SbTextTableClock *clock, char dates) {
   if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
     long before, now;
-    if (!sb_text_table_days(&before, &days->last) || !sb_text_table_days(&now, clock)) {
+    if (!sb_text_table_days(&before, &days->last, dates) ||
+        !sb_text_table_days(&now, clock, dates)) {
       return false;
     }
     days->day += 86400.0 * (double)(now - before);
@@ -27,6 +28,8 @@ static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
   *out = days->day + clock->seconds;
   return true;
 }
+
+static const char ambiguous_date[] = "is ambiguous: the date advances by a day or by a month";
 
 // The cells of a line.
 typedef struct {
@@ -54,8 +57,8 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
     if (!table->column[at].clock) {
       read = sb_text_table_number(&row[k], &cell[at], &table->dialect, NULL);
     } else if ((read = sb_text_table_clock(&clock, &cell[at])) && out->good &&
-               !add_days(&row[k], &days[k], &clock)) {
-      wrong = "is ambiguous: the date advances by a day or by a month, write it as 2026-02-03";
+               !add_days(&row[k], &days[k], &clock, table->dialect.dates)) {
+      wrong = ambiguous_date;
     }
     out->any |= read;
     out->good &= read || sb_text_table_void(&cell[at]);
@@ -92,7 +95,8 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
   const GString *text;
-  size_t room = 0;
+  size_t room = 0, begun = 0; // blocks behind blank lines
+  bool blank = false, other = false;
   sb_text_table_seek(lines, 0);
   while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
     if ((size_t)lines->number <= table->header_lines) {
@@ -102,18 +106,21 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     if (text->len > 0 && strspn(text->str, "#%!") == 0) {
       wrong = read_line(&line, row, days, table, column, count, text);
     }
-    const bool like = line.good && line.any;
+    begun += blank && line.cells > 0;
+    other = line.cells != table->columns && (other || (blank && line.cells > 0));
+    blank = line.cells == 0;
+    const bool like = line.good && line.any && !other;
     sb_text_table_block_next(&block, like, text, &table->dialect, &table->file->shape);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
       if (wrong == NULL && out->rows == room) {
         wrong = make_room(value, count, &room);
       }
       for (size_t k = 0; k < count && wrong == NULL; k++) {
-        value[k][out->rows] = row[k];
+        value[k][out->rows] = column[k] < table->columns ? row[k] : (double)begun;
       }
       out->rows += wrong == NULL;
-    } else if (line.cells > 0 && (like || line.unreadable > 0 || !line.good)) { // not empty
-      const bool damaged = memchr(text->str, '\0', text->len) != NULL ||
+    } else if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
+      const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
       *(damaged ? &out->damaged : &out->skipped) += 1;
       if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
@@ -125,7 +132,9 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   }
   wrong = wrong != NULL ? wrong : lines->wrong;
   if (wrong != NULL) {
-    sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL, "%s", wrong);
+    const bool date = wrong == ambiguous_date;
+    sb_issues_add_choice(issues, table->file->shown, lines->number, date ? "dates" : NULL,
+                         date ? "day-month\nmonth-day" : NULL, !date, "%s", wrong);
     for (size_t k = 0; k < count; k++) {
       g_clear_pointer(&value[k], g_free);
     }

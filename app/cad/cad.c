@@ -118,9 +118,7 @@ SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error
   }
   // The content decides; the name only where the content is of no known kind.
   g_autofree char *lower = g_ascii_strdown(path, -1);
-  static const char step[] = "ISO-10303-21";
-  enum { HEAD = 1000 };
-  return g_strstr_len(text, (gssize)MIN(length, HEAD), step) != NULL
+  return g_strstr_len(text, (gssize)MIN(length, 1000), "ISO-10303-21") != NULL
              ? sb_cad_read_step(path, shown, choices, error)
          : sb_cad_is_stl(text, length) || g_str_has_suffix(lower, ".stl")
              ? sb_cad_parse_stl(text, length, shown, choices, error)

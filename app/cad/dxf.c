@@ -196,12 +196,6 @@ static void block_free(gpointer data) {
   g_free(block);
 }
 
-static Block *block_new(void) {
-  Block *block = g_new0(Block, 1);
-  block->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
-  return block;
-}
-
 // Names of $INSUNITS for udunits-2, from 1. The inch of the US survey (22), which udunits-2 does
 // not know, is longer than the inch by 2e-6.
 #define UNITS                                                                                      \
@@ -225,7 +219,8 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
       const char *state = frozen ? "frozen" : entity.number[62] < 0 ? "off" : NULL;
       g_hash_table_replace(drawing->hidden, key, (char *)state);
     } else {
-      *open = block_new();
+      *open = g_new0(Block, 1);
+      (*open)->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
       (*open)->base[0] = entity.number[10];
       (*open)->base[1] = entity.number[20];
       g_hash_table_replace(drawing->blocks, key, *open);
@@ -388,13 +383,13 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
 
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error) {
-  static const char mark[] = "\xEF\xBB\xBF"; // of UTF-8
-  const gsize skipped = length >= 3 && memcmp(text, mark, 3) == 0 ? 3 : 0;
+  const gsize skipped = length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
+  Block model = {.items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem))};
   Drawing drawing = {
       .text = {.next.at = text + skipped,
                .end = text + length,
                .separator = memchr(text, '\n', length) != NULL ? '\n' : '\r'},
-      .model = block_new(),
+      .model = &model,
       .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
       .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
@@ -416,7 +411,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
     sb_app_error_prefix(&problem, name);
     g_propagate_error(error, problem);
   }
-  block_free(drawing.model);
+  g_array_unref(model.items);
   g_hash_table_unref(drawing.blocks);
   g_hash_table_unref(drawing.hidden);
   g_hash_table_unref(drawing.left_out);

@@ -365,8 +365,6 @@ SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
   }
   SbCad *cad = of_mesh(&stl, path, choices, error);
   sb_stl_clear(&stl);
-  if (cad == NULL) {
-    sb_app_error_prefix(error, path);
-  }
+  sb_app_error_prefix(error, path);
   return cad;
 }

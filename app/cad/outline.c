@@ -66,12 +66,10 @@ static bool append_next(GArray *chain, const GArray *pieces, bool *used, double 
 }
 
 static void turn(GArray *chain) {
-  for (guint i = 0; i < (chain->len + 1) / 2; i++) {
-    SbCadPiece *a = &g_array_index(chain, SbCadPiece, i);
-    SbCadPiece *b = &g_array_index(chain, SbCadPiece, chain->len - 1 - i);
-    const SbCadPiece first = reversed(*b), last = reversed(*a);
-    *a = first;
-    *b = last;
+  g_autoptr(GArray) old = g_array_copy(chain);
+  for (guint i = 0; i < old->len; i++) {
+    const SbCadPiece piece = g_array_index(old, SbCadPiece, old->len - 1 - i);
+    g_array_index(chain, SbCadPiece, i) = reversed(piece);
   }
 }
 

@@ -84,9 +84,11 @@ static void check_measured(Check *check) {
   }
   check->kind = "measured table";
   if (check->measured->dropped > 0) {
-    sb_issues_add(check->issues[SEVERITY_WARNING], check->shown, 0, NULL, NULL,
-                  "%zu rows with an empty or unreadable cell are left out",
-                  check->measured->dropped);
+    sb_issues_add(
+        check->issues[SEVERITY_WARNING], check->shown, 0, NULL, NULL,
+        "%zu rows are left out: a cell is empty or unreadable, or they do not continue the "
+        "table at a blank line",
+        check->measured->dropped);
   }
 }
 

@@ -10,7 +10,7 @@
 
 typedef struct {
   char *form, *outliers, *missing, *cutoff_short, *cutoff_long;
-  char *channel, *spacing, *unit, *lateral_unit, *json, *scene, *output, *plot;
+  char *channel, *decimal, *spacing, *unit, *lateral_unit, *json, *scene, *output, *plot;
   gboolean ignore_mask;
   SbSurfaceChoices choices;
 } Options;
@@ -26,6 +26,7 @@ static int read_options(Options *options) {
       {"outliers", options->outliers},
       {"cutoff-short", options->cutoff_short},
       {"cutoff-long", options->cutoff_long},
+      {"decimal", options->decimal},
       {"spacing", options->spacing},
       {"unit", options->unit},
       {"lateral-unit", options->lateral_unit},
@@ -293,6 +294,8 @@ int sb_command_surface(int argc, char **argv) {
        "Number or title of a channel (.gwy); default the only one of heights", "NAME"},
       {"ignore-mask", 0, 0, G_OPTION_ARG_NONE, &options.ignore_mask,
        "Uses masked points as if they were measured (.gwy)", NULL},
+      {"decimal", 0, 0, G_OPTION_ARG_FILENAME, &options.decimal,
+       "Decimal mark of a text; default found", "point|comma"},
       {"spacing", 0, 0, G_OPTION_ARG_FILENAME, &options.spacing,
        "Distance of points, in place of the file's", "LENGTH"},
       {"unit", 0, 0, G_OPTION_ARG_FILENAME, &options.unit, "Unit of a text's heights", "UNIT"},

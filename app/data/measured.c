@@ -9,6 +9,7 @@
 #include <string.h>
 
 #define SPEED_MAX 10.0 // of a test machine [m/s]
+enum { ROWS_MIN = 8 }; // of a loop
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -16,19 +17,18 @@ static const struct {
   const char *si;
   double most;       // either way, SI
   const char *words; // pattern of a column's name
-  const char *alias; // units that mean another one in this column: "g gf" is gram-force
   const char *units; // usual units, one a line
 } channels[SB_CHANNELS] = {
-    {"s", 1e9, "time|zeit|temps|ti?empo|^\\W*t\\W*$|seconds|\\bsec\\b|時間|时间", "", "s\nms\nmin"},
+    {"s", 1e11, "time|zeit|temps|ti?empo|^\\W*t\\W*$|seconds|\\bsec\\b|時間|时间", "s\nms\nmin"},
     {"m", 0.2,
      "displ|\\bdisp\\b|weg|position|extension|travel|stroke|\\bhub\\b|placement|course|crosshead|"
      "travers|deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|"
      "stauchung|verformung|変位|位移|^\\W*[sx]\\W*$|allong|allung|alarg|recorr|carrera|posi[cz]i",
-     "", "mm\nµm\nin"},
+     "mm\nµm\nin"},
     {"N", 1e5,
      "force|kraft|\\bload\\b|\\blast\\b|effort|\\bcharge\\b|carga|carico|fuerza|forza|荷重|試験力|"
      "^\\W*f\\W*$",
-     "g gf kg kgf lb lbf oz ozf", "N\nkN\ngf\nkgf\nlbf"},
+     "N\nkN\ngf\nkgf\nlbf"},
 };
 
 void sb_measured_free(SbMeasured *measured) {
@@ -55,12 +55,11 @@ static bool name_fits(const char *name, SbChannel channel) {
 }
 
 static bool unit_scale(double *scale, const char *unit, SbChannel channel) {
-  const char *si = channels[channel].si, *meant = unit;
-  g_auto(GStrv) alias = g_strsplit(channels[channel].alias, " ", -1);
-  for (int i = 0; alias[i] != NULL; i += 2) {
-    meant = strcmp(alias[i], unit) == 0 ? alias[i + 1] : meant;
-  }
-  return *unit != '\0' && sb_unit_scale(scale, meant, si, si, NULL);
+  const char *si = channels[channel].si;
+  g_autofree char *force = g_strconcat(unit, "f", NULL); // "g" of a force is gram-force
+  return *unit != '\0' &&
+         (sb_unit_scale(scale, unit, si, si, NULL) ||
+          (channel == SB_CHANNEL_FORCE && sb_unit_scale(scale, force, si, si, NULL)));
 }
 
 // Columns and units that keys name, into the table.
@@ -272,6 +271,34 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
 
 // ---- Rows ----
 
+// Makes the forces of blocks behind a blank line that do not continue the table not a number. Two
+// of these are true of them: the time goes back; the displacement jumps further than between rows
+// of a long block; there are too few rows for a loop. The shorter side of the line is dropped.
+static void drop_blocks(SbMeasured *m, const double *block) {
+  const double *time = m->time, *place = m->displacement;
+  double step = 0;
+  const size_t blocks = m->count > 0 ? (size_t)(block[m->count - 1] - block[0]) + 1 : 1;
+  const size_t most = MAX(m->count / blocks / 2, ROWS_MIN);
+  for (size_t i = most; place != NULL && i < m->count; i++) {
+    step = block[i] == block[i - most] ? fmax(step, fabs(place[i] - place[i - 1])) : step;
+  }
+  for (size_t i = 0, end, kept = 0, last = 0; i < m->count; i = end) {
+    for (end = i + 1; end < m->count && block[end] == block[i];) {
+      end++;
+    }
+    const bool back = kept > 0 && time != NULL && time[i] < time[last];
+    const bool jump = kept > 0 && step > 0 && fabs(place[i] - place[last]) > 2 * step;
+    const bool apart = back + jump + (MIN(kept, end - i) < ROWS_MIN) > 1;
+    const bool before = apart && kept < end - i;
+    for (size_t k = before ? 0 : i; apart && k < (before ? i : end); k++) {
+      m->force[k] = NAN;
+    }
+    m->jumps |= (back || jump) && !apart;
+    kept = apart ? MAX(kept, end - i) : kept + end - i;
+    last = apart && !before ? last : end - 1;
+  }
+}
+
 // To SI in place, dropping rows with a gap; false with an issue on a value that is none of a valve.
 static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, GPtrArray *issues) {
   size_t kept = 0;
@@ -297,7 +324,7 @@ static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, 
     }
     kept += whole;
   }
-  m->dropped = m->count - kept;
+  m->dropped += m->count - kept;
   m->count = kept;
   return true;
 }
@@ -389,14 +416,15 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
   if (!settle_columns(m, table, data, speed, scale, issues)) {
     return NULL;
   }
-  size_t column[SB_CHANNELS], count = 0;
-  double *read[SB_CHANNELS];
+  size_t column[SB_CHANNELS + 1], count = 0;
+  double *read[SB_CHANNELS + 1];
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].at > 0) {
       column[count++] = m->column[c].at - 1;
     }
   }
-  if (!sb_text_table_read(&m->lines, read, table, column, count, issues)) {
+  column[count] = table->columns;
+  if (!sb_text_table_read(&m->lines, read, table, column, count + 1, issues)) {
     return NULL;
   }
   for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
@@ -407,9 +435,11 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
               sb_issues_add(issues, data->path, m->lines.left_line, NULL, NULL,
                             "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
                             m->lines.skipped, m->count, m->lines.left_text);
+  m->dropped = m->lines.damaged;
+  drop_blocks(m, read[count]);
+  g_free(read[count]);
   good = good && settle_rows(m, data, scale, issues);
-  m->dropped += m->lines.damaged;
-  if (good && m->count < 8) {
+  if (good && m->count < ROWS_MIN) {
     good = sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows",
                          "has too few rows for a loop");
   }

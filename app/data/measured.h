@@ -1,20 +1,8 @@
 // A measured loop of force against displacement, read from a table of numbers
 // (app/base/text_table.h) and made comparable with a run: SI units, compression positive,
 // displacement increasing on the in-stroke, and the stem's own displacement from its rest position.
-// SbMeasured states what was found in the data and how. Keys of the group [data NAME] replace what
-// would be found:
-//
-//   signal = force over displacement
-//   separator = comma | semicolon | tab | blank     decimal = point | comma
-//   encoding = utf-8 | latin-1 | utf-16le | utf-16be | shift-jis
-//   columns = time, displacement, -, force          in the file's order, - for others
-//   units = s, mm, -, N
-//   speed = 20 mm/min                                of the crosshead, without a displacement
-//   direction = as-is | force | displacement | both  columns whose sign is reversed
-//   zero = as-is | 0.31 mm, 0.2 N                    readings at rest and without a load
-//   compliance = none | 0.012 mm/N                   of the machine between crosshead and stem
-//   cycle = all | 2                                  from 1; a list 1, 10, 40 only for `calibrate`
-//   actuation = 1                                    number since new of the file's first cycle
+// SbMeasured states what was found in the data and how. Keys of the group [data NAME], which
+// docs/measured-data.md lists, replace what would be found.
 //
 // How these are found. Direction: friction dissipates energy, so the force is greater on the
 // in-stroke; the canister's pressure pushes outwards, so the mean force is positive. Compliance:
@@ -76,8 +64,10 @@ typedef struct {
   } column[SB_CHANNELS];
   size_t specimens; // pairs of displacement and force side by side, the first in use; 0: only one
   // Rows, in the order of the file. Displacement and force are corrected as above.
-  size_t count;   // rows in use
-  size_t dropped; // rows left out for an empty or unreadable cell
+  size_t count; // rows in use
+  size_t
+      dropped; // rows left out for an empty or unreadable cell, or that do not continue the table
+  bool jumps;  // behind a blank line time or displacement jumps, and yet the rows are in use
   union {
     struct {
       double *time;         // [count] [s]; NULL: no such column

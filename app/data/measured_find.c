@@ -10,6 +10,8 @@
 // explains less than half of the squares a straight line leaves is none.
 #include "app/data/measured_private.h"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -28,15 +30,6 @@ static double median_force(const SbMeasured *m, size_t begin, size_t end, double
   return sb_number_median(value, count);
 }
 
-static void range_of(double *low, double *high, const double *value, size_t count) {
-  *low = INFINITY;
-  *high = -INFINITY;
-  for (size_t i = 0; i < count; i++) {
-    *low = fmin(*low, value[i]);
-    *high = fmax(*high, value[i]);
-  }
-}
-
 // ---- Cycles ----
 
 // Ends of strokes: rows where the displacement turns by more than a fifth of its range, the first
@@ -44,7 +37,7 @@ static void range_of(double *low, double *high, const double *value, size_t coun
 static GArray *find_turns(const SbMeasured *m) {
   GArray *turns = g_array_new(FALSE, FALSE, sizeof(size_t));
   double low, high;
-  range_of(&low, &high, m->displacement, m->count);
+  gsl_stats_minmax(&low, &high, m->displacement, 1, m->count);
   const double gap = 0.2 * (high - low);
   size_t least = 0, most = 0, extreme = 0;
   int way = 0;
@@ -95,13 +88,12 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
   g_autoptr(GArray) turns = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
-    const size_t turned =
-        sb_measured_word(data, SB_DATA_DIRECTION, sb_measured_directions, issues) - 1;
+    const size_t turned = sb_data_word(data, SB_DATA_DIRECTION, sb_data_directions, issues) - 1;
     m->turned_force = (turned & 1) != 0;
     m->turned_displacement = (turned & 2) != 0;
   } else {
     double low, high;
-    range_of(&low, &high, m->force, m->count);
+    gsl_stats_minmax(&low, &high, m->force, 1, m->count);
     const double middle = median_force(m, 0, m->count, -INFINITY, INFINITY);
     const double open = opening(m, turns);
     const bool pressed = fabs(middle) > 0.05 * (high - low), loop = isfinite(open) && open != 0;
@@ -388,7 +380,7 @@ static void find_stages(SbMeasured *m) {
 bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   double low, high;
   const guint before = issues->len;
-  range_of(&low, &high, m->displacement, m->count);
+  gsl_stats_minmax(&low, &high, m->displacement, 1, m->count);
   if (!(high > low)) {
     return sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
   }

@@ -3,34 +3,19 @@
 
 #include <string.h>
 
-static const char *const separator_names[] = {"comma", "semicolon", "tab", "bar", "blank", NULL};
-static const char *const decimal_names[] = {"point", "comma", NULL};
-const char *const sb_measured_directions[] = {"as-is", "force", "displacement", "both", NULL};
-// Their characters; the first one, of an absent key, is to be recognised.
+// Characters of the keys `separator` and `decimal`; the first one, of an absent key, is to be
+// recognised.
 static const char separators[] = "\0,;\t| ", decimals[] = "\0.,";
-
-size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
-                        GPtrArray *issues) {
-  size_t index = 0;
-  while (data->text[key] != NULL && names[index] != NULL &&
-         strcmp(names[index], data->text[key]) != 0) {
-    index++;
-  }
-  if (names[index] == NULL) {
-    g_autofree char *allowed = g_strjoinv(", ", (char **)names);
-    sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
-  }
-  return data->text[key] != NULL ? index + 1 : 0;
-}
 
 bool sb_measured_dialect(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues) {
   static const char *const signals[] = {"force over displacement", NULL};
   const guint before = issues->len;
-  wish->separator = separators[sb_measured_word(data, SB_DATA_SEPARATOR, separator_names, issues)];
-  wish->decimal = decimals[sb_measured_word(data, SB_DATA_DECIMAL, decimal_names, issues)];
-  wish->encoding = (SbTextTableEncoding)sb_measured_word(data, SB_DATA_ENCODING,
-                                                         sb_text_table_encodings + 1, issues);
-  (void)sb_measured_word(data, SB_DATA_SIGNAL, signals, issues);
+  wish->separator = separators[sb_data_word(data, SB_DATA_SEPARATOR, sb_data_separators, issues)];
+  wish->decimal = decimals[sb_data_word(data, SB_DATA_DECIMAL, sb_data_decimals, issues)];
+  wish->encoding = (SbTextTableEncoding)sb_data_word(data, SB_DATA_ENCODING,
+                                                     sb_text_table_encodings + 1, issues);
+  wish->dates = "\0dm"[sb_data_word(data, SB_DATA_DATES, sb_data_dates, issues)];
+  (void)sb_data_word(data, SB_DATA_SIGNAL, signals, issues);
   return issues->len == before;
 }
 
@@ -48,14 +33,23 @@ char *sb_measured_layout(const SbMeasured *m, bool units) {
   return layout;
 }
 
+// Returns the value of the key `cycle`, owned by the caller.
+static char *cycle_of(const SbMeasured *m) {
+  const bool all = m->first == 0 && m->last + 1 == m->cycle->len;
+  return all ? g_strdup("all") : g_strdup_printf("%zu", m->first + 1);
+}
+
 char *sb_measured_keys(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
   g_string_append_printf(out, "separator = %s\ndecimal = %s\nencoding = %s\n",
-                         name_of(separator_names, separators, m->dialect.separator),
-                         name_of(decimal_names, decimals, m->dialect.decimal),
+                         name_of(sb_data_separators, separators, m->dialect.separator),
+                         name_of(sb_data_decimals, decimals, m->dialect.decimal),
                          sb_text_table_encodings[m->dialect.encoding]);
   g_autofree char *columns = sb_measured_layout(m, false), *units = sb_measured_layout(m, true);
   g_string_append_printf(out, "columns = %s\nunits = %s\n", columns, units);
+  if (m->dialect.dates != '\0') {
+    g_string_append_printf(out, "dates = %s\n", sb_data_dates[m->dialect.dates == 'm']);
+  }
   if (m->speed > 0) {
     g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
     g_string_append_printf(out, "speed = %s\n", speed);
@@ -63,14 +57,10 @@ char *sb_measured_keys(const SbMeasured *m) {
   g_autofree char *rest = sb_quantity_format(m->at_rest, "m", "mm");
   g_autofree char *load = sb_quantity_format(m->no_load, "N", "N");
   g_autofree char *slope = sb_quantity_format(m->slope, "m/N", "mm/N");
-  g_string_append_printf(out, "direction = %s\nzero = %s, %s\ncompliance = %s\n",
-                         sb_measured_directions[m->turned_force + 2 * m->turned_displacement], rest,
-                         load, slope);
-  if (m->first == 0 && m->last + 1 == m->cycle->len) {
-    g_string_append(out, "cycle = all\n");
-  } else {
-    g_string_append_printf(out, "cycle = %zu\n", m->first + 1);
-  }
+  g_autofree char *cycle = cycle_of(m);
+  g_string_append_printf(out, "direction = %s\nzero = %s, %s\ncompliance = %s\ncycle = %s\n",
+                         sb_data_directions[m->turned_force + 2 * m->turned_displacement], rest,
+                         load, slope, cycle);
   return g_string_free(out, FALSE);
 }
 
@@ -78,8 +68,8 @@ char *sb_measured_text(const SbMeasured *m) {
   static const char *const hows[] = {"not in the data, used unchanged", "found", "as specified"};
   GString *out = g_string_new(NULL);
   g_string_append_printf(out, "separator %s, decimal %s, %s, %zu header lines\n",
-                         name_of(separator_names, separators, m->dialect.separator),
-                         name_of(decimal_names, decimals, m->dialect.decimal),
+                         name_of(sb_data_separators, separators, m->dialect.separator),
+                         name_of(sb_data_decimals, decimals, m->dialect.decimal),
                          sb_text_table_encodings[m->dialect.encoding], m->header_lines);
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].at > 0) {
@@ -104,7 +94,9 @@ char *sb_measured_text(const SbMeasured *m) {
     g_string_append_printf(out, ", %zu after the first cycle left out", m->behind);
   }
   if (m->dropped > 0) {
-    g_string_append_printf(out, ", %zu with a cell that is empty or cannot be read dropped",
+    g_string_append_printf(out,
+                           ", %zu dropped: a cell is empty or cannot be read, or the rows "
+                           "do not continue the table at a blank line",
                            m->dropped);
   }
   if (m->lines.skipped > 0) {
@@ -112,15 +104,13 @@ char *sb_measured_text(const SbMeasured *m) {
                            m->lines.skipped, m->lines.left_line, m->lines.left_text);
   }
   char digits[3][SB_NUMBER_SIZE];
-  g_string_append_printf(out, "\n%u cycles, ", m->cycle->len);
-  if (m->first == 0 && m->last + 1 == m->cycle->len) {
-    g_string_append(out, "all used\n");
-  } else {
-    g_string_append_printf(out, "number %zu used\n", m->first + 1);
-  }
+  g_autofree char *cycle = cycle_of(m);
+  g_string_append_printf(out, "%s\n%u cycles, %s%s used\n",
+                         m->jumps ? ", time or displacement jumps at a blank line" : "",
+                         m->cycle->len, *cycle == 'a' ? "" : "number ", cycle);
   g_string_append_printf(out, "reversed: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
                          m->turned_force || m->turned_displacement
-                             ? sb_measured_directions[m->turned_force + 2 * m->turned_displacement]
+                             ? sb_data_directions[m->turned_force + 2 * m->turned_displacement]
                              : "nothing",
                          hows[m->direction], sb_number_round(digits[0], m->at_rest * 1e3, 6),
                          hows[m->zero], sb_number_round(digits[1], m->no_load, 5),

@@ -9,10 +9,6 @@
 
 enum { BINS = 160 };
 
-const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *m, size_t index) {
-  return &g_array_index(m->cycle, SbMeasuredCycle, index);
-}
-
 // Whether a row is of a sliding stem, and in which way. A stem that jams on its return rests where
 // the cycle ends, while the force falls.
 static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
@@ -65,10 +61,8 @@ void sb_measured_band(SbMeasuredBand *out, const SbMeasured *m) {
   for (size_t c = m->first; c <= m->last; c++) {
     out->end = fmax(out->end, m->displacement[sb_measured_cycle(m, c)->turn] * (1 + 1e-9));
   }
-  for (int way = 0; way < 2; way++) {
-    for (int piece = 0; piece < SB_MEASURED_BAND; piece++) {
-      out->force[way][piece][0] = out->force[way][piece][1] = NAN;
-    }
+  for (int i = 0; i < 4 * SB_MEASURED_BAND; i++) {
+    out->force[i / 2 / SB_MEASURED_BAND][i / 2 % SB_MEASURED_BAND][i % 2] = NAN;
   }
   for (size_t c = m->first; c <= m->last; c++) {
     const SbMeasuredCycle *cycle = sb_measured_cycle(m, c);

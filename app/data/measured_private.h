@@ -12,19 +12,12 @@
 bool sb_measured_find(SbMeasured *measured, const SbData *data, GPtrArray *issues);
 
 // Returns the rows of cycle `index`, from 0, below measured->cycle->len; borrowed.
-const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t index);
+static inline const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t index) {
+  return &g_array_index(measured->cycle, SbMeasuredCycle, index);
+}
 
 // Returns the layout (choice.h) of the columns by the names of their channels, or by their units.
 char *sb_measured_layout(const SbMeasured *measured, bool units);
-
-// Texts of the key `direction`: bit 0 of the index is set if the force is reversed, bit 1 if the
-// displacement is. Ended by NULL.
-extern const char *const sb_measured_directions[];
-
-// Returns the number in `names` (ended by NULL) of a key's text, from 1; 0 for an absent key.
-// Another text is an issue.
-size_t sb_measured_word(const SbData *data, SbDataKey key, const char *const *names,
-                        GPtrArray *issues);
 
 // Writes the dialect that keys choose; members without a key stay 0. Returns false with an issue
 // for each text that is not known, also of the key `signal`.

@@ -140,6 +140,20 @@ static void find_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad) {
   }
 }
 
+// Refuses a body that the drawing does not have, with those that it has. Always false.
+static bool refuse_body(const SbCad *cad, const char *text, const char *part, GError **error) {
+  g_autoptr(GString) list = g_string_new(NULL), values = g_string_new(NULL);
+  g_autofree char *key = g_strconcat("part=", part, NULL);
+  for (guint i = 0; i < cad->bodies->len; i++) {
+    const SbCadBody *one = cad->bodies->pdata[i];
+    g_string_append_printf(list, "%s%u %s", i > 0 ? ", " : "", i + 1, one->name);
+    g_string_append_printf(values, "%s%u", i > 0 ? "\n" : "", i + 1);
+  }
+  return sb_app_error_choose(error, key, values->str,
+                             "there is no body '%s' for %s, by number or name, among %s", text,
+                             part, list->str);
+}
+
 bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSettings *settings,
                   GError **error) {
   find_parts(body, cad);
@@ -150,10 +164,7 @@ bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSett
     }
     body[i] = find_body(cad, text);
     if (body[i] < 0) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                  "there is no body '%s' for %s (give its number or name)", text,
-                  sb_shape_parts[i]);
-      return false;
+      return refuse_body(cad, text, sb_shape_parts[i], error);
     }
     const SbCadBody *one = cad->bodies->pdata[body[i]];
     if (one->profile->len == 0) {

@@ -5,6 +5,11 @@
 
 #include <string.h>
 
+const char *const sb_data_separators[] = {"comma", "semicolon", "tab", "bar", "blank", NULL};
+const char *const sb_data_decimals[] = {"point", "comma", NULL};
+const char *const sb_data_dates[] = {"day-month", "month-day", NULL};
+const char *const sb_data_directions[] = {"as-is", "force", "displacement", "both", NULL};
+
 static const char *const names[SB_DATA_KEY_COUNT] = {
 #define DATA_KEY_NAME(code, name) [code] = name,
     SB_DATA_KEYS(DATA_KEY_NAME)
@@ -66,6 +71,20 @@ bool sb_data_add_choice(const SbData *data, SbDataKey key, const char *values, G
   g_autofree char *where = full_key(data, key);
   return sb_issues_add_choice(issues, data->shown != NULL ? data->shown : data->path, data->line,
                               where, values, true, "%s", text);
+}
+
+size_t sb_data_word(const SbData *data, SbDataKey key, const char *const *words,
+                    GPtrArray *issues) {
+  size_t index = 0;
+  while (data->text[key] != NULL && words[index] != NULL &&
+         strcmp(words[index], data->text[key]) != 0) {
+    index++;
+  }
+  if (words[index] == NULL) {
+    g_autofree char *allowed = g_strjoinv(", ", (char **)words);
+    sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
+  }
+  return data->text[key] != NULL ? index + 1 : 0;
 }
 
 static SbData *find(const GPtrArray *list, const char *name) {

@@ -12,6 +12,7 @@
   X(SB_DATA_SIGNAL, "signal")                                                                      \
   X(SB_DATA_SEPARATOR, "separator")                                                                \
   X(SB_DATA_DECIMAL, "decimal")                                                                    \
+  X(SB_DATA_DATES, "dates")                                                                        \
   X(SB_DATA_ENCODING, "encoding")                                                                  \
   X(SB_DATA_COLUMNS, "columns")                                                                    \
   X(SB_DATA_UNITS, "units")                                                                        \
@@ -43,6 +44,15 @@ typedef struct {
   char *shown;                   // the file that contains the group, for messages
   int line;                      // of the group in that file, from 1; 0: none
 } SbData;
+
+// Texts of the keys `separator`, `decimal`, `dates` and `direction`, each list ended by NULL.
+// Directions: bit 0 of the index is set if the force is reversed, bit 1 if the displacement is.
+extern const char *const sb_data_separators[], *const sb_data_decimals[];
+extern const char *const sb_data_dates[], *const sb_data_directions[];
+
+// Returns the number in `words` (ended by NULL) of a key's text, from 1; 0 for an absent key.
+// Another text is an issue.
+size_t sb_data_word(const SbData *data, SbDataKey key, const char *const *words, GPtrArray *issues);
 
 // Returns the name of a key ("columns").
 const char *sb_data_key_name(SbDataKey key);

@@ -113,9 +113,8 @@ static bool read_rows(SbModelSeries *out, const Column *columns, const SbTextTab
   for (size_t i = 0; i < rows.rows && good; i++) {
     good = take_row(out, columns, i, value, name, issues);
   }
-  for (int i = 0; i < COLUMNS; i++) {
-    g_free(value[i]);
-  }
+  g_free(value[0]);
+  g_free(value[1]);
   g_free(rows.left_text);
   return good;
 }
@@ -143,6 +142,9 @@ bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text, si
   out->count = 0;
   g_autoptr(SbTextTable) table = sb_text_table_parse(text, length, NULL, name, issues);
   const bool good = table != NULL && read_table(out, kind, table, name, issues);
+  if (!good) {
+    sb_issues_forget_key(issues, "decimal points, dates as 2026-02-03, separators ; or tab");
+  }
   const double start = good ? out->time[0] : 0;
   out->count = good ? out->count : 0;
   for (size_t i = 0; i < out->count; i++) {

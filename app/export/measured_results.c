@@ -20,6 +20,7 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
   sb_json_count(json, "rows", m->count);
   sb_json_count(json, "rows_dropped", m->dropped);
   sb_json_count(json, "lines_skipped", m->lines.skipped);
+  sb_json_bool(json, "jumps_at_blank_line", m->jumps);
   sb_json_object(json, "columns");
   for (int c = 0; c < SB_CHANNELS; c++) {
     if (m->column[c].at > 0) {

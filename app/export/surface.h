@@ -41,6 +41,9 @@ typedef struct {
   char *channel; // owned; scan.channel points to it
 } SbSurfaceChoices;
 
+// Texts of the choice "missing", ended by NULL.
+extern const char *const sb_surface_missing[];
+
 // Sets the defaults: a plane is subtracted, all else as in the file.
 void sb_surface_choices_init(SbSurfaceChoices *choices);
 
@@ -48,6 +51,7 @@ void sb_surface_choices_init(SbSurfaceChoices *choices);
 void sb_surface_choices_clear(SbSurfaceChoices *choices);
 
 // Sets one choice by the name of its command line option: "form", "missing", "channel", "outliers",
+// "decimal" (sb_data_decimals),
 // "cutoff-short", "cutoff-long", "spacing" (a number with unit; without: µm), "unit",
 // "lateral-unit" (a unit of length). `text` is the value. Returns false with SB_APP_ERROR_INPUT
 // whose message does not contain the name ("a value above 0 is needed"); the choices are then not

@@ -1,10 +1,13 @@
 // Choices of a scan by name; see surface.h.
 #include "app/base/error.h"
 #include "app/base/unit.h"
+#include "app/document/data_keys.h"
 #include "app/export/surface.h"
 
 #include <math.h>
 #include <string.h>
+
+const char *const sb_surface_missing[] = {"leave", "fill", NULL};
 
 void sb_surface_choices_init(SbSurfaceChoices *choices) {
   *choices = (SbSurfaceChoices){.heights = {.form = SB_FORM_PLANE}};
@@ -69,10 +72,14 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
   if (strcmp(name, "form") == 0) {
     return choose_form(&choices->heights.form, text, error);
   }
-  if (strcmp(name, "missing") == 0) {
-    choices->heights.fill = strcmp(text, "fill") == 0;
-    return choices->heights.fill || strcmp(text, "leave") == 0 ||
-           fail(error, "there is no \"%s\" (allowed leave, fill)", text);
+  const bool missing = strcmp(name, "missing") == 0;
+  if (missing || strcmp(name, "decimal") == 0) {
+    const char *const *words = missing ? sb_surface_missing : sb_data_decimals;
+    const bool second = strcmp(text, words[1]) == 0;
+    choices->heights.fill = missing ? second : choices->heights.fill;
+    choices->scan.decimal = missing ? choices->scan.decimal : ".,"[second];
+    return second || strcmp(text, words[0]) == 0 ||
+           fail(error, "there is no \"%s\" (allowed %s, %s)", text, words[0], words[1]);
   }
   if (strcmp(name, "channel") == 0) {
     g_free(choices->channel);

@@ -160,7 +160,9 @@ static void test_scene(void) {
   g_assert_true(sb_cad_choose(&settings, "housing", "block", &error));
   g_assert_false(sb_cad_parts(body, cad, &settings, &error));
   g_assert_cmpstr(error->message, ==,
-                  "there is no body 'block' for housing (give its number or name)");
+                  "there is no body 'block' for housing, by number or name, among 1 Stem centre: "
+                  "specify it with --part=housing=1");
+  assert_choice(sb_app_error_choice(error), error->message, "housing", "1");
   g_clear_error(&error);
   g_assert_false(sb_cad_choose(&settings, "density", "0 kg/m3", &error));
   g_assert_cmpstr(error->message, ==, "1 to 30000 kg/m3");
@@ -178,7 +180,7 @@ static void test_refused(void) {
        "a.dxf: line 8: 'far' is not a number here"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nLINE\n 10\n", "a.dxf: the file ends after line 7"},
       {"  0\nSECTION\n  2\nENTITIES\n  0\nENDSEC\n",
-       "a.dxf: states no unit ($INSUNITS): specify it with --unit"},
+       "a.dxf: states no unit ($INSUNITS): specify it with --unit=mm|cm|inch"},
       {"AutoCAD Binary DXF\r\n\x1a", "a.dxf: is a binary DXF: save it as text (ASCII)"},
   };
   const SbCadChoices none = {0}, millimetres = {.unit = "mm"}, wrong = {.unit = "kg"};

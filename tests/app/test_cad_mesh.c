@@ -163,7 +163,8 @@ static void test_mesh_refused(void) {
   g_assert_null(parse_mesh(small, &none, &error));
   g_assert_cmpstr(error->message, ==,
                   "parts/Stem-centre.stl: an STL file states no unit, and its longest side of 1.2 "
-                  "is 1.2 mm in mm, 12 mm in cm, 30.5 mm in inch: specify it with --unit");
+                  "is 1.2 mm in mm, 12 mm in cm, 30.5 mm in inch: specify it with "
+                  "--unit=mm|cm|inch");
   assert_choice(sb_app_error_choice(error), error->message, "unit", "mm\ncm\ninch");
   // A copy with the name of another file has the choice too; each of its units is accepted.
   g_autoptr(GError) copy = g_error_copy(error);

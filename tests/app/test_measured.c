@@ -400,6 +400,9 @@ static void test_choices(void) {
   } cases[] = {
       {"Weg [mm];Kraft [N]\n1,234;5,678\n1,235;5,679\n", "decimal", "point\ncomma"},
       {"Weg,Kraft\n0,001,12,5\n0,002,12,6\n0,003,12,7\n", "separator", "comma"},
+      {"Time;Weg [mm];Kraft [N]\n03/02/2026 23:59:59;1.5;1\n04/02/2026 00:00:01;1.6;2\n"
+       "04/02/2026 00:00:03;1.7;2\n",
+       "dates", "day-month\nmonth-day"},
       {"Weg [mm];Stroke [mm];Kraft [N]\n0.1;1.5;1\n0.2;1.6;2\n0.3;1.7;2\n", "columns",
        "displacement, -, force\n-, displacement, force"},
       // Of two forces too, none is chosen with the displacement.
@@ -491,6 +494,57 @@ static void test_settled(void) {
     g_assert_nonnull(m);
     g_assert_cmpfloat_with_epsilon(m->displacement[0], comma ? 1.234e-6 : 1.234e-3, 1e-15);
     sb_data_free(data);
+  }
+}
+
+// Numbers behind a blank line that do not continue the table are dropped, and counted; a cycle
+// with a clock of its own, pages and lines apart are read.
+static void test_blocks(void) {
+  enum { HALF = 40, COUNT = 2 * HALF + 1 };
+  static const struct {
+    const char *head, *tail; // before and behind the rows
+    int every;               // rows between blank lines; 0: no blank line
+    size_t rows, dropped;
+    bool jumps, timeless;
+  } cases[] = {
+      {"", "", 0, COUNT, 0, false, false},
+      {"", "", 1, COUNT, 0, false, false},
+      {"", "", 7, COUNT, 0, false, false},
+      {"", "", 7, COUNT, 0, false, true},
+      {"", "\n8,1;9,75;20,0\n0,1;0,0;5,0\n", 0, COUNT, 2, false, false},
+      {"", ";;\n;;\n4,1;0,0;20,0\n", 0, COUNT, 1, false, false},
+      {"", "\n9,75;20,0\n0,0;5,0\n", 0, COUNT, 2, false, false},
+      {"", "\n9,75\n", 7, COUNT, 1, false, false},
+      {"", "\n;9,75;20,0\n", 0, COUNT, 1, false, true},
+      {"8,1;9,75;20,0\n0,1;0,0;5,0\n\n", "", 0, COUNT, 2, false, false},
+      {"", "\n9,9;9,75;20,0\n9,9;8,0;5,0\n", 0, COUNT, 2, false, false},
+      {"", "\n0;0;20\n1;1;20\n2;2;20\n3;3;20\n4;4;20\n5;3;5\n6;2;5\n7;0;5\n", 0, COUNT + 8, 0, true,
+       false},
+      {"", "\n0;7;20\n1;6;20\n2;7;20\n3;6;20\n4;7;20\n5;6;5\n6;7;5\n7;6;5\n", 0, COUNT, 8, false,
+       false},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    g_autoptr(GString) text = g_string_new(cases[i].timeless ? "n;Weg [mm];Kraft [N]\n"
+                                                             : "Zeit [s];Weg [mm];Kraft [N]\n");
+    g_string_append(text, cases[i].head);
+    for (int k = 0; k < COUNT; k++) {
+      const int place = 25 * (HALF - ABS(k - HALF));
+      g_string_append_printf(text, "%d,%d;%d,%02d;%d,0\n%s", k / 10, k % 10, place / 100,
+                             place % 100, k <= HALF ? 20 : 5,
+                             cases[i].every > 0 && k % cases[i].every == 0 ? "\n" : "");
+    }
+    g_string_append(text, cases[i].tail);
+    SbData *data = sb_data_of_file("x.csv");
+    g_autoptr(GBytes) bytes = g_bytes_new(text->str, text->len);
+    g_autoptr(SbMeasured) m = read_bytes(bytes, data);
+    sb_data_free(data);
+    g_test_message("case %zu", i);
+    g_assert_cmpuint(m->count, ==, cases[i].rows);
+    g_assert_cmpuint(m->dropped, ==, cases[i].dropped);
+    g_assert_true(m->jumps == cases[i].jumps);
+    g_autofree char *words = sb_measured_text(m);
+    g_assert_true((strstr(words, "continue the table") != NULL) == (cases[i].dropped > 0));
+    g_assert_true((strstr(words, "jumps at a blank line") != NULL) == cases[i].jumps);
   }
 }
 
@@ -670,6 +724,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/choices", test_choices);
   g_test_add_func("/measured/time-alone", test_time_alone);
   g_test_add_func("/measured/settled", test_settled);
+  g_test_add_func("/measured/blocks", test_blocks);
   g_test_add_func("/measured/numbers", test_numbers);
   g_test_add_func("/measured/left-line", test_left_line);
   g_test_add_func("/measured/clocks", test_clocks);

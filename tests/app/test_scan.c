@@ -269,7 +269,8 @@ static void test_matrix(void) {
   // Units that are not there are asked for.
   h.dy = h.dx;
   text = matrix(esri, " ", '.', "-9999");
-  assert_refused(text->str, text->len, &plain, "the unit of its heights: specify it with --unit");
+  assert_refused(text->str, text->len, &plain,
+                 "the unit of its heights: specify it with --unit=nm|um|mm");
   assert_chosen(text->str, text->len, &plain, "unit", "nm\num\nmm");
   assert_chosen(text->str, text->len, &(SbScanChoices){.channel = "1"}, "channel", "");
   assert_text(text, &(SbScanChoices){.unit = 1e-9, .lateral_unit = 1e-6}, &h);
@@ -286,6 +287,46 @@ static void test_matrix(void) {
   g_string_truncate(text, text->len - 100);
   assert_refused(text->str, text->len, &plain, "numbers where the header announces 20 x 17");
   g_string_free(text, TRUE);
+}
+
+// Commas that separate numbers and are their decimal marks too: zeros before other digits or a line
+// of names decide, else a choice does.
+static void test_commas(void) {
+  const SbHeights h = written();
+  for (int blank = 0; blank < 2; blank++) {
+    GString *text =
+        matrix("Width: 10 um\nHeight: 34 um\nZ unit: nm\n", blank ? ", " : ",", ',', "nan");
+    assert_text(text, &plain, &h);
+    g_string_free(text, TRUE);
+  }
+  static const char either[] = "1,523,2,518,4,600\n3,530,4,511,5,620\n",
+                    integers[] = "1,5,2,18\n3,53,4,5\n";
+  static const char names[] = "x [um],z [nm]\n0,523\n1,518\n2,530\n";
+  const SbScanChoices scale = {.unit = 1e-9, .spacing = 1e-6};
+  assert_chosen(either, strlen(either), &scale, "decimal", "point\ncomma");
+  static const char profile[] = "0,0,123\n1,0,045\n2,0,500\n"; // x, and z with a decimal comma
+  assert_chosen(profile, strlen(profile), &scale, "decimal", "point");
+  const struct {
+    const char *text;
+    char decimal;
+    size_t columns, rows;
+    double first; // height [nm]
+  } cases[] = {{either, ',', 3, 2, 1.523},
+               {either, '.', 6, 2, 1},
+               {integers, '\0', 4, 2, 1},
+               {profile, '.', 3, 3, 0},
+               {names, '\0', 3, 1, 523}};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    const SbScanChoices choices = {.unit = 1e-9, .spacing = 1e-6, .decimal = cases[i].decimal};
+    SbScan scan;
+    GError *error = NULL;
+    sb_scan_parse(&scan, cases[i].text, strlen(cases[i].text), &choices, "scan", &error);
+    g_assert_no_error(error);
+    g_assert_cmpuint(scan.heights.columns, ==, cases[i].columns);
+    g_assert_cmpuint(scan.heights.rows, ==, cases[i].rows);
+    g_assert_cmpfloat_with_epsilon(scan.heights.z[0], 1e-9 * cases[i].first, 1e-20);
+    sb_scan_clear(&scan);
+  }
 }
 
 static void test_sdf(void) {
@@ -485,6 +526,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/scan/sur", test_sur);
   g_test_add_func("/scan/x3p", test_x3p);
   g_test_add_func("/scan/matrix", test_matrix);
+  g_test_add_func("/scan/commas", test_commas);
   g_test_add_func("/scan/sdf", test_sdf);
   g_test_add_func("/scan/headers", test_headers);
   g_test_add_func("/scan/points", test_points);

@@ -48,8 +48,11 @@ static void test_refused(void) {
       {"time [s],displacement [m]\n0,0\n1,3\n",
        "x.csv: row 2: column 2 is out of range (allowed at most 200 mm in either direction)"},
       {"time [s];force [N]\n1,250;2,500\n2,750;3,125\n",
-       "x.csv: decimal: is ambiguous: \"1,250\" is 1250 with a decimal point, 1.25 with a "
-       "decimal comma"},
+       "x.csv: is ambiguous: \"1,250\" is 1250 with a decimal point, 1.25 with a "
+       "decimal comma (allowed decimal points, dates as 2026-02-03,"},
+      {"time;force [N]\n03/02/2026 23:59:59;1\n04/02/2026 00:00:01;2\n",
+       "x.csv: line 3: is ambiguous: the date advances by a day or by a month (allowed decimal "
+       "points, dates as 2026-02-03,"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();

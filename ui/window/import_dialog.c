@@ -186,8 +186,7 @@ static GtkWidget *make_choice(SbImportDialog *dialog, const SbImportRow *row) {
     widget = gtk_entry_new();
   } else {
     widget = gtk_combo_box_text_new();
-    g_auto(GStrv) words = g_strsplit(row->words, "|", -1);
-    for (char **word = words; *word != NULL; word++) {
+    for (const char *const *word = row->words; *word != NULL; word++) {
       gtk_combo_box_text_append(GTK_COMBO_BOX_TEXT(widget), *word, *word);
     }
   }

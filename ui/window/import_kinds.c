@@ -15,13 +15,14 @@
 // Measured loops ---------------------------------------------------------------------------------
 
 static const SbImportRow measured_rows[] = {
-    {"separator", N_("Separator"), "comma|semicolon|tab|bar|blank"},
-    {"decimal", N_("Decimal mark"), "point|comma"},
-    {"encoding", N_("Encoding"), "utf-8|latin-1|utf-16le|utf-16be|shift-jis|gbk"},
+    {"separator", N_("Separator"), sb_data_separators},
+    {"decimal", N_("Decimal mark"), sb_data_decimals},
+    {"dates", N_("Dates"), sb_data_dates},
+    {"encoding", N_("Encoding"), sb_text_table_encodings + 1},
     {"columns", N_("Columns"), NULL},
     {"units", N_("Units"), NULL},
     {"speed", N_("Speed, of the time alone"), NULL},
-    {"direction", N_("Turned round"), "as-is|force|displacement|both"},
+    {"direction", N_("Turned round"), sb_data_directions},
     {"zero", N_("At rest, without load"), NULL},
     {"compliance", N_("Compliance"), NULL},
     {"cycle", N_("Cycle"), NULL},
@@ -98,14 +99,19 @@ const SbImportKind sb_import_measured_kind = {N_("Import measured data"),
 
 // Scans ------------------------------------------------------------------------------------------
 
+#define FORM_NAME(code, text) text,
+static const char *const forms[] = {SB_FORM_LIST(FORM_NAME) NULL};
+#undef FORM_NAME
+
 static const SbImportRow scan_rows[] = {
-    {"form", N_("Form removed"), "none|plane|quadratic|cylinder"},
+    {"form", N_("Form removed"), forms},
     {"outliers", N_("Outliers beyond, deviations"), NULL},
-    {"missing", N_("Missing points"), "leave|fill"},
+    {"missing", N_("Missing points"), sb_surface_missing},
     {"cutoff-short", N_("Shortest wave"), NULL},
     {"cutoff-long", N_("Longest wave"), NULL},
     {"channel", N_("Channel"), NULL},
     {"spacing", N_("Distance of points"), NULL},
+    {"decimal", N_("Decimal mark"), sb_data_decimals},
     {"unit", N_("Unit of heights"), NULL},
     {"lateral-unit", N_("Unit of lengths"), NULL},
     {0},
@@ -184,13 +190,15 @@ const SbImportKind sb_import_scan_kind = {N_("Import a scan"),
 
 // Drawings ---------------------------------------------------------------------------------------
 
+static const char *const flips[] = {"no", "yes", NULL};
+
 static const SbImportRow drawing_rows[] = {
     {"unit", N_("Unit of a DXF or STL"), NULL},
     {"axis", N_("Direction of the axis"), NULL},
     {"through", N_("A point of the axis"), NULL},
     {"angle", N_("Half-plane of the section"), NULL},
     {"join", N_("Gaps of a DXF closed up to"), NULL},
-    {"flip", N_("Canister on the right"), "no|yes"},
+    {"flip", N_("Canister on the right"), flips},
     {"shift", N_("Moved along the axis by"), NULL},
     {"density", N_("Density of the parts"), NULL},
     {"housing", N_("Housing: body"), NULL},

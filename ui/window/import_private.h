@@ -12,9 +12,9 @@ typedef struct SbImportDialog SbImportDialog;
 
 // A row of the form.
 typedef struct {
-  const char *key;   // its key in a document and as an option; NULL: end of the rows
-  const char *label; // marked for translation
-  const char *words; // words that may be chosen, separated by "|"; NULL: any text
+  const char *key;          // its key in a document and as an option; NULL: end of the rows
+  const char *label;        // marked for translation
+  const char *const *words; // words that may be chosen, ended by NULL; NULL: any text
 } SbImportRow;
 
 // Maximum number of rows, and index of the row of a drawing's first part.

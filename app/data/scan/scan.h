@@ -29,6 +29,7 @@ typedef struct {
   // For text files only; another format that states its units is refused if one of these is set.
   double unit;          // metres per unit of the heights, e.g. 1e-6; 0: as the file states
   double lateral_unit;  // metres per unit of x and y; 0: as the file states, else `unit`
+  char decimal;         // '.' or ','; 0: as the file shows
   gboolean ignore_mask; // use masked points of a .gwy as if they were measured
 } SbScanChoices;
 

@@ -3,6 +3,8 @@
 
 #include "engine/valve/model/params.h"
 
+#include <gsl/gsl_statistics_double.h>
+
 #include <math.h>
 #include <string.h>
 
@@ -51,20 +53,14 @@ static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *rep
 
 SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
                               double (*value)(const SbHeightFigures *part)) {
-  double sum = 0, squares = 0, count = 0;
+  double each[SB_SCAN_PARTS_MAX];
+  size_t count = 0;
   for (int k = 0; k < figures->part_rows * figures->part_columns; k++) {
-    const double each = value(&figures->part[k]);
-    if (isfinite(each)) {
-      sum += each;
-      count++;
-    }
+    each[count] = value(&figures->part[k]);
+    count += isfinite(each[count]);
   }
-  const double mean = sum / count;
-  for (int k = 0; k < figures->part_rows * figures->part_columns; k++) {
-    const double each = value(&figures->part[k]) - mean;
-    squares += isfinite(each) ? each * each : 0;
-  }
-  return count < 2 ? (SbScanScatter){NAN, NAN} : (SbScanScatter){mean, sqrt(squares / (count - 1))};
+  return count < 2 ? (SbScanScatter){NAN, NAN}
+                   : (SbScanScatter){gsl_stats_mean(each, 1, count), gsl_stats_sd(each, 1, count)};
 }
 
 // ---- What to be warned of ----

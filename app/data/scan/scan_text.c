@@ -124,21 +124,18 @@ static Header header_of(const SbScanText *text) {
   return h;
 }
 
-// Metres per unit of a column by the header; 0 without.
-static double column_unit(const SbScanText *text, gsize column) {
-  return sb_scan_length(text->table->column[column].unit);
-}
-
 // Units by precedence: the caller's, the file's, for lengths the caller's of heights. The caller's
 // unit is that of the numbers as written: it replaces the header's factor too, which a note states.
 // False with an error where one is needed and nowhere.
 static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbScanChoices *choices,
                        bool needs_lateral, GError **error) {
   if (text->matrix.columns <= 3 && h->vertical == 0) {
-    h->vertical = column_unit(text, text->matrix.columns - 1);
-    h->lateral = h->lateral > 0 || text->matrix.columns == 1 ? h->lateral : column_unit(text, 0);
-    if (text->matrix.columns == 3 && column_unit(text, 1) != h->lateral &&
-        column_unit(text, 1) > 0) {
+    const SbTextTableColumn *column = text->table->column;
+    const double y = text->matrix.columns == 3 ? sb_scan_length(column[1].unit) : 0;
+    h->vertical = sb_scan_length(column[text->matrix.columns - 1].unit);
+    h->lateral =
+        h->lateral > 0 || text->matrix.columns == 1 ? h->lateral : sb_scan_length(column[0].unit);
+    if (y > 0 && y != h->lateral) {
       return sb_app_error_input(error, "x and y have different units");
     }
   }
@@ -226,7 +223,7 @@ static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *
 
 bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
                         GError **error) {
-  static const SbTextTableDialect wish = {.matrix = true};
+  const SbTextTableDialect wish = {.matrix = true, .decimal = choices->decimal};
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(GPtrArray) entries = g_ptr_array_new_with_free_func(entry_free);
   g_autoptr(SbTextTable) table =
@@ -236,7 +233,10 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                     sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
   if (!read) {
     const SbIssue *issue = issues->pdata[0];
-    return issue->line > 0
+    const bool chosen = issue->choice.key != NULL;
+    g_autofree char *values = chosen ? g_strjoinv("\n", issue->choice.value) : NULL;
+    return chosen ? sb_app_error_choose(error, issue->choice.key, values, "%s", issue->text)
+           : issue->line > 0
                ? sb_app_error_input(error, "line %d: %s", issue->line, issue->text)
                : sb_app_error_input(
                      error, "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
