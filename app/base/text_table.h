@@ -93,18 +93,16 @@ enum { SB_TEXT_TABLE_ROWS_MAX = 50000000 };
 // What was read.
 typedef struct {
   size_t rows;    // rows in the arrays
-  size_t damaged; // rows left out: a cell cannot be read while others can, or contains a NUL
-  size_t apart;   // rows left out: of a block behind a blank line with another number of cells
+  size_t damaged; // rows left out: unreadable cell, NUL, or other columns behind a blank line
   size_t skipped; // other lines between rows, left out
   int left_line;  // number of the first skipped line, from 1; if none is, of the first row left out
   char *left_text; // its text, freed by g_free(); NULL: no line was left out
 } SbTextTableRows;
 
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
-// numbers of column[k], freed by g_free(); times of day in seconds from midnight of the first day;
-// NaN for an empty cell. The index table->columns gives the number of the row's block: a blank line
-// in front of a row begins the next one. Numbers are in the file's units. Returns false with one
-// issue: no memory, too many rows, or dates in which day and month are ambiguous.
+// numbers of column[k] in the file's units, freed by g_free(); times of day in seconds from
+// midnight of the first day; NaN for an empty cell; for the index table->columns, the row's block,
+// counted at blank lines. Returns false with one issue: memory, too many rows, or ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
