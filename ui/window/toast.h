@@ -10,7 +10,7 @@ void sb_toast_attach(GtkWindow *window);
 
 // Shows `text` (translated) in place of the earlier one. `action`: name of an action
 // ("win.show-report") for a button with the label `button` (translated); NULL: no button, `button`
-// is not used. `stays`: the line does not hide itself; it is shown until its
-// button is clicked or another line replaces it.
+// is not used. `stays`: the line does not hide itself; it is shown until its button is clicked or
+// another line replaces it.
 void sb_toast_show(GtkWindow *window, const char *text, const char *button, const char *action,
                    gboolean stays);
