@@ -102,8 +102,8 @@ typedef struct {
   // Where the first of those solvers failed, and why; empty if all converged.
   double gap_at; // abscissa; NaN: at none in particular
   char gap[SB_TEXT];
-  size_t
-      missing; // number from 1 of the first warning that states why points have no value; 0: none
+  // Number from 1 of the first warning that states why points have no value; 0: none.
+  size_t missing;
 } SbStudy;
 
 // Adds a panel with the ordinate `y`, the text `empty`, no limits and no curves, and returns it,
