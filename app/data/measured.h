@@ -64,10 +64,9 @@ typedef struct {
   } column[SB_CHANNELS];
   size_t specimens; // pairs of displacement and force side by side, the first in use; 0: only one
   // Rows, in the order of the file. Displacement and force are corrected as above.
-  size_t count; // rows in use
-  size_t
-      dropped; // rows left out for an empty or unreadable cell, or that do not continue the table
-  bool jumps;  // behind a blank line time or displacement jumps, and yet the rows are in use
+  size_t count;   // rows in use
+  size_t dropped; // rows with an empty or unreadable cell, or that do not continue the table
+  bool jumps;     // behind a blank line time or displacement jumps, and yet the rows are in use
   union {
     struct {
       double *time;         // [count] [s]; NULL: no such column
