@@ -23,11 +23,10 @@ GQuark sb_app_error_quark(void);
 // is made printable (sb_printable()). Always returns false, the result of a reader that fails.
 bool sb_app_error_input(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
 
-// As sb_app_error_input(), for a refusal that the option `key` ("unit") resolves. The sentence is
-// followed by the remedy ": specify it with --unit=mm|inch", or ": omit --unit" if the only value
-// is
-// "". `values` has the plausible values, one a line; NULL: any value. `key` NULL: no option. A key
-// "part=stem" is the choice "stem" of the option `part`.
+// As sb_app_error_input(), for a refusal that the option `key` ("unit") resolves. The remedy
+// follows the sentence: ": specify it with --unit=mm|inch", or ": omit --unit" if the only value is
+// "". `values` has the plausible values, one a line; NULL: any value. `key` NULL: no option. The
+// key "part=stem" is the choice "stem" of the option `part`.
 bool sb_app_error_choose(GError **error, const char *key, const char *values, const char *format,
                          ...) G_GNUC_PRINTF(4, 5);
 

@@ -231,7 +231,7 @@ static gboolean on_delayed(gpointer data) {
   return G_SOURCE_REMOVE;
 }
 
-// A run that has begun is told.
+// Reports a run that has begun.
 static gboolean on_begun(gpointer data) {
   SbSession *session = data;
   session->timer = 0;
@@ -321,7 +321,7 @@ void sb_session_values_changed(SbSession *session) {
       sb_displayed_run_unref(stored);
     } else if (session->model != NULL && session->auto_run) {
       // What was just opened is complete, so is a single edit, and a quick run ends before the
-      // next. A single edit's begins before anybody is told, which takes the window 40 ms.
+      // next. The run of a single edit begins before it is reported, which takes the window 40 ms.
       const bool grades = session->heavy && session->shown != NULL;
       const bool begun = grades && session->lone && begin(session);
       const guint wait = grades && !session->lone ? DELAY_MS : 0;
