@@ -295,7 +295,7 @@ static size_t join_warnings(GString *line, SbCanvas *c, const SbTextStyle *style
   size_t shown = 0, ordered = 0;
   for (int pass = 1; pass >= 0; pass--) {
     for (size_t i = 0; i < list->count; i++) {
-      if (sb_warning_is_serious(list->item[i].code) == (pass == 1)) {
+      if (list->item[i].serious == (pass == 1)) {
         texts[ordered++] = list->item[i].text;
       }
     }

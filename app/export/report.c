@@ -126,7 +126,7 @@ static void draw_notices(SbReportPages *pages, const Scene *scene) {
   }
   for (size_t i = 0; i < summary->warnings.count; i++) {
     const SbWarning *warning = &summary->warnings.item[i];
-    if (sb_warning_is_serious(warning->code)) {
+    if (warning->serious) {
       g_autofree char *text = capital(warning->text);
       sb_report_notice(pages, text, false);
     }

@@ -194,8 +194,8 @@ static char *decided_by(const SbVerdict *of) {
   if (of->figure < 0) {
     return g_strdup(of->reason[0] != '\0' ? of->reason : "no limit is set");
   }
-  char *label = sb_figure_label(of->figure);
-  return of->reason[0] == '\0' ? label : g_strdup_printf("%s: %s", label, of->reason);
+  g_autofree char *label = sb_figure_label(of->figure);
+  return g_strconcat(label, of->reason[0] != '\0' ? ": " : "", of->reason, NULL);
 }
 
 SbTable *sb_run_verdict(const SbSummary *summary, const SbCaseVerdict *verdict) {
@@ -250,7 +250,7 @@ SbTable *sb_run_warnings(const SbWarnings *warnings, const GPtrArray *notes) {
     const SbTableCell code = sb_cell_text(warning->code);
     sb_table_add(table, SB_CELLS(code, sb_cell_text(warning->text), code,
                                  sb_cell_text(sb_input_key(warning->input))));
-    sb_table_mark(table, sb_warning_is_serious(warning->code) ? SB_TABLE_DOUBT : SB_TABLE_PLAIN);
+    sb_table_mark(table, warning->serious ? SB_TABLE_DOUBT : SB_TABLE_PLAIN);
   }
   for (guint i = 0; notes != NULL && i < notes->len; i++) {
     const SbTableCell code = sb_cell_text("note");

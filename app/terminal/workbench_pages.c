@@ -316,7 +316,7 @@ static char *popup_text(SbBench *bench, const char **title) {
     for (int pass = 1; summary != NULL && pass >= 0; pass--) {
       for (size_t i = 0; i < summary->warnings.count; i++) {
         const SbWarning *warning = &summary->warnings.item[i];
-        if (sb_warning_is_serious(warning->code) == (pass == 1)) {
+        if (warning->serious == (pass == 1)) {
           g_string_append_printf(text, "%s: %s%s%s%s\n\n", warning->code, warning->text,
                                  warning->input != 0 ? " (" : "", sb_input_key(warning->input),
                                  warning->input != 0 ? ")" : "");

@@ -107,7 +107,7 @@ void sb_warn_about(SbWarnings *list, const char *subject) {
   }
 }
 
-static void add(SbWarnings *list, const char *code, int input, const char *subject,
+static void add(SbWarnings *list, const char *code, bool serious, int input, const char *subject,
                 const char *text) {
   for (size_t i = 0; i < list->count; i++) {
     const SbWarning *there = &list->item[i];
@@ -123,21 +123,35 @@ static void add(SbWarnings *list, const char *code, int input, const char *subje
   SbWarning *warning = &list->item[list->count++];
   const bool named = strstr(text, subject) != NULL;
   sb_text(warning->code, sizeof warning->code, "%s", code);
+  warning->serious = serious;
   warning->input = input;
   sb_text(warning->subject, sizeof warning->subject, "%s", subject);
   sb_message(warning->text, sizeof warning->text, "%s%s%s", named ? "" : subject, named ? "" : ": ",
              text);
 }
 
-void sb_warn(SbWarnings *list, const char *code, int input, const char *format, ...) {
+SB_PRINTF(5, 0)
+static void warn_v(SbWarnings *list, const char *code, bool serious, int input, const char *format,
+                   va_list arguments) {
   if (list != NULL) {
     char text[SB_TEXT];
-    va_list arguments;
-    va_start(arguments, format);
     sb_message_v(text, sizeof text, format, arguments);
-    va_end(arguments);
-    add(list, code, input, list->subject != NULL ? list->subject : "", text);
+    add(list, code, serious, input, list->subject != NULL ? list->subject : "", text);
   }
+}
+
+void sb_warn(SbWarnings *list, const char *code, int input, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  warn_v(list, code, false, input, format, arguments);
+  va_end(arguments);
+}
+
+void sb_warn_serious(SbWarnings *list, const char *code, int input, const char *format, ...) {
+  va_list arguments;
+  va_start(arguments, format);
+  warn_v(list, code, true, input, format, arguments);
+  va_end(arguments);
 }
 
 void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
@@ -153,26 +167,11 @@ void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, co
   }
 }
 
-bool sb_warning_is_serious(const char *code) {
-  // A contact that the fluid opens is among them as "seal-open", in the states that need the seal.
-  static const char *const serious[] = {
-      "no-return",     "life-no-return", "no-slip",      "static-hold", "no-contact",
-      "seal-open",     "static-leak",    "ring-rolls",   "ring-jams",   "ports-no-vent",
-      "not-converged", "film-history",   "film-snap-in", "ring-shape",  "gasket-detaches",
-  };
-  for (size_t i = 0; i < sizeof serious / sizeof *serious; i++) {
-    if (strcmp(code, serious[i]) == 0) {
-      return true;
-    }
-  }
-  return false;
-}
-
 void sb_warnings_merge(SbWarnings *list, const SbWarnings *from) {
   for (size_t i = 0; list != NULL && i < from->count; i++) {
     const SbWarning *w = &from->item[i];
     bool own = w->subject[0] != '\0' || list->subject == NULL;
-    add(list, w->code, w->input, own ? w->subject : list->subject, w->text);
+    add(list, w->code, w->serious, w->input, own ? w->subject : list->subject, w->text);
   }
   if (list != NULL) {
     list->dropped += from->dropped;

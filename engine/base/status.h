@@ -124,6 +124,9 @@ enum { SB_WARNINGS_MAX = 48 };
 typedef struct {
   char code[48];      // stable identifier of the kind of warning, "film-below-continuum"
   char text[SB_TEXT]; // one sentence, which names the subject
+  bool serious;       // reports a defect of the valve, or a model or picture that omits something
+                      // relevant: always printed in words; other warnings, which reduce the
+                      // confidence in a result, may be shown as a count only
   int input;        // number of the input to change, 0 if none; its key: sb_input_key() of params.h
   char subject[16]; // part that the warning is about, "inner seal"; "" if there is only one
 } SbWarning;
@@ -145,6 +148,10 @@ typedef struct {
 void sb_warn(SbWarnings *list, const char *code, int input, const char *format, ...)
     SB_PRINTF(4, 5);
 
+// Does the same as sb_warn() with a warning that is `serious`.
+void sb_warn_serious(SbWarnings *list, const char *code, int input, const char *format, ...)
+    SB_PRINTF(4, 5);
+
 // Formats a new text into each warning of `list` that has this code and this subject ("": no
 // subject). Does nothing if there is no such warning. `list` must not be NULL.
 void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
@@ -153,11 +160,6 @@ void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, co
 // Sets the subject of the warnings that are added from now on; `subject` is borrowed until the next
 // call of this function with `list`. NULL: no subject. `list` may be NULL.
 void sb_warn_about(SbWarnings *list, const char *subject);
-
-// Returns whether a warning with this code reports a defect of the valve, or a model or picture
-// that omits something relevant. Such a warning is always printed in words; other warnings, which
-// reduce the confidence in a result, may be shown as a count only.
-bool sb_warning_is_serious(const char *code);
 
 // Adds copies of all warnings of `from` to `list` (NULL: does nothing), and adds from->dropped to
 // list->dropped. A warning without a subject gets the current subject of `list`.

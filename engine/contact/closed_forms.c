@@ -159,9 +159,9 @@ SbStatus sb_fit_closed(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double diameter = in->fitted_section ? out->section_diameter_fitted : in->section_diameter;
   const Section section = {diameter, (diameter - in->radial_space) / diameter};
   if (!(diameter > in->radial_space)) {
-    sb_warn(&out->warnings, "no-contact", SB_CONTACT_IN_SECTION_DIAMETER,
-            "the ring has no contact with the bore (squeeze %.3g %%): load 0",
-            100.0 * section.squeeze);
+    sb_warn_serious(&out->warnings, "no-contact", SB_CONTACT_IN_SECTION_DIAMETER,
+                    "the ring has no contact with the bore (squeeze %.3g %%): load 0",
+                    100.0 * section.squeeze);
     return sb_succeed(report);
   }
   const Contact c = model[in->model](out, in, &section);

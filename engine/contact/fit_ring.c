@@ -92,10 +92,10 @@ static void take_result(SbFit *out, const SbFitProblem *in, SbRing *ring,
   const bool slides = result->state == SB_RING_SLIDES || result->state == SB_RING_NO_CONTACT;
   out->ring.drag_limit = slides ? NAN : result->drag_limit;
   if (!slides) {
-    sb_warn(&out->warnings, result->state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
-            SB_CONTACT_IN_FLOOR_FRICTION,
-            "the ring %s at a drag of %.4g of its load: the figures are those at this drag",
-            result->state == SB_RING_ROLLS ? "rolls" : "jams", result->drag_limit);
+    sb_warn_serious(&out->warnings, result->state == SB_RING_ROLLS ? "ring-rolls" : "ring-jams",
+                    SB_CONTACT_IN_FLOOR_FRICTION,
+                    "the ring %s at a drag of %.4g of its load: the figures are those at this drag",
+                    result->state == SB_RING_ROLLS ? "rolls" : "jams", result->drag_limit);
   }
   out->ring.load_steps = (size_t)result->load_steps;
   out->ring.rejected_steps = (size_t)result->rejected_steps;

@@ -105,7 +105,7 @@ static void snap_in(SbFilm *out, const SbFilmProblem *problem, double closed) {
   out->valid = false;
   strcpy(out->regime, "boundary");
   const bool tips = problem->work_of_adhesion > 0;
-  sb_warn(
+  sb_warn_serious(
       &out->warnings, "film-snap-in", tips ? SB_FILM_IN_WORK_OF_ADHESION : SB_FILM_IN_HAMAKER,
       "adhesion closes gaps below %.3g nm (film without it %.3g nm): boundary lubrication, work "
       "of adhesion %.2g J/m2; the figures are those without adhesion",

@@ -127,16 +127,18 @@ static void test_inputs(void) {
   g_assert_cmpint(sb_input_find("no.such_key"), ==, 0);
 }
 
-// What tells a defect of the valve, or that something was not computed, is never one of a number.
+// A warning is as serious as where it was given, also after it was merged into another list.
 static void test_serious(void) {
-  static const char *const serious[] = {"no-return",     "life-no-return", "seal-open",
-                                        "ports-no-vent", "not-converged",  "film-history",
-                                        "film-snap-in"};
-  for (size_t i = 0; i < G_N_ELEMENTS(serious); i++) {
-    g_assert_true(sb_warning_is_serious(serious[i]));
-  }
-  g_assert_false(sb_warning_is_serious("boundary-regime"));
-  g_assert_false(sb_warning_is_serious("film-opened")); // "seal-open" where the seal is needed
+  SbWarnings list = {0}, all = {0};
+  sb_warn(&list, "boundary-regime", 0, "λ = %g", 0.3);
+  sb_warn_serious(&list, "seal-open", sb_input(SB_P_SEAL_SECTION_DIAMETER), "open at %g bar", 5.5);
+  sb_warn_about(&all, "outer seal");
+  sb_warnings_merge(&all, &list);
+  g_assert_cmpuint(all.count, ==, 2);
+  g_assert_false(all.item[0].serious);
+  g_assert_true(all.item[1].serious);
+  g_assert_cmpstr(all.item[1].text, ==, "outer seal: open at 5.5 bar");
+  sb_warn_serious(NULL, "seal-open", 0, "no list");
 }
 
 int main(int argc, char **argv) {

@@ -51,7 +51,7 @@ static char *findings_text(const SbSummary *summary) {
   g_autoptr(GString) text = g_string_new(NULL);
   for (size_t i = 0; summary != NULL && i < summary->warnings.count; i++) {
     const SbWarning *warning = &summary->warnings.item[i];
-    if (sb_warning_is_serious(warning->code)) {
+    if (warning->serious) {
       gsize start = text->len + (text->len > 0 ? 1 : 0);
       g_string_append_printf(text, "%s%s.", text->len > 0 ? " " : "", warning->text);
       text->str[start] = g_ascii_toupper(text->str[start]);

@@ -83,7 +83,7 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   size_t serious = 0;
   for (int pass = 1; summary != NULL && pass >= 0; pass--) {
     for (size_t i = 0; i < summary->warnings.count; i++) {
-      if (sb_warning_is_serious(summary->warnings.item[i].code) == (pass == 1)) {
+      if (summary->warnings.item[i].serious == (pass == 1)) {
         add_warning(bar, &summary->warnings.item[i]);
         serious += pass == 1;
       }

@@ -444,8 +444,9 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double squeeze = 1.0 - in->radial_space / diameter;
   out->circumference = M_PI * (in->bore_diameter - in->radial_space);
   if (!(squeeze > hydrostatic_of(in, both))) {
-    sb_warn(&out->warnings, "no-contact", SB_CONTACT_IN_SECTION_DIAMETER,
-            "the disc has no contact with the flats (squeeze %.3g %%): load 0", 100.0 * squeeze);
+    sb_warn_serious(&out->warnings, "no-contact", SB_CONTACT_IN_SECTION_DIAMETER,
+                    "the disc has no contact with the flats (squeeze %.3g %%): load 0",
+                    100.0 * squeeze);
     out->solver.converged = true;
     return sb_succeed(report);
   }

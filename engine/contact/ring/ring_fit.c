@@ -236,11 +236,11 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   }
   sb_ring_result(ring, result);
   if (!result->touching) {
-    sb_warn(warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
-            "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm",
-            load->pressure_left != 0.0 || load->pressure_right != 0.0 ? " and lets the fluid past"
-                                                                      : "",
-            1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));
+    sb_warn_serious(
+        warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
+        "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm",
+        load->pressure_left != 0.0 || load->pressure_right != 0.0 ? " and lets the fluid past" : "",
+        1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));
   } else {
     status =
         fit_contact(ring, result, &path_end, status, size, wanted, tolerance, warnings, report);

@@ -283,20 +283,21 @@ static void warn_of_outcome(SbSummary *summary) {
   const double margin = summary->force_return_margin;
   switch (summary->outcome) {
   case SB_OUTCOME_NEVER_MOVED:
-    sb_warn(&summary->warnings, "no-slip", sb_input(SB_P_FRICTION_STATIC_RATIO),
-            "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
+    sb_warn_serious(&summary->warnings, "no-slip", sb_input(SB_P_FRICTION_STATIC_RATIO),
+                    "the stem never slips: the drive's %.3g N are not enough", summary->force_peak);
     break;
   case SB_OUTCOME_STUCK:
-    sb_warn(&summary->warnings, "no-return", sb_input(SB_P_SURFACE_GT_PRODUCT),
-            "the stem does not return: it is stuck at %.3g mm, return margin %.3g N",
-            1e3 * summary->stuck_at, margin);
+    sb_warn_serious(&summary->warnings, "no-return", sb_input(SB_P_SURFACE_GT_PRODUCT),
+                    "the stem does not return: it is stuck at %.3g mm, return margin %.3g N",
+                    1e3 * summary->stuck_at, margin);
     break;
   case SB_OUTCOME_RETURNED:
     if (margin < 0) {
-      sb_warn(&summary->warnings, "static-hold", sb_input(SB_P_FRICTION_STATIC_RATIO),
-              "the stem returns without stopping; if it stops on the return path, static friction "
-              "can exceed the pressure force by %.3g N",
-              -margin);
+      sb_warn_serious(
+          &summary->warnings, "static-hold", sb_input(SB_P_FRICTION_STATIC_RATIO),
+          "the stem returns without stopping; if it stops on the return path, static friction "
+          "can exceed the pressure force by %.3g N",
+          -margin);
     }
     break;
   case SB_OUTCOME_HELD:

@@ -68,9 +68,9 @@ static void report_open(SbRun *run, int seal, bool touches) {
                          : "the seal has no contact with the bore under its pressures: the path is "
                            "open");
   sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
-  sb_warn(&run->summary.warnings, "seal-open", pressed_by(run->model),
-          "the %s seal is open: it does not press the bore under its pressures",
-          sb_seal_name(seal));
+  sb_warn_serious(&run->summary.warnings, "seal-open", pressed_by(run->model),
+                  "the %s seal is open: it does not press the bore under its pressures",
+                  sb_seal_name(seal));
 }
 
 // Solves the percolation of a contact with the real area out->rest_area_share. Sets *problem; its
@@ -160,7 +160,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
   }
   out->leak_state = open ? SB_LEAK_OPEN : leak.percolates ? SB_LEAK_PERCOLATING : SB_LEAK_CLOSED;
   if (leak.percolates) {
-    sb_warn(
+    sb_warn_serious(
         warnings, "static-leak", pressed_by(model),
         "the %s seal leaks at rest: %.3g MPa of contact pressure, open channels close at %.3g MPa",
         sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);

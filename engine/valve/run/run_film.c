@@ -94,10 +94,10 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   SbStatus status = sb_film_transient_create(&history->film, &problem, report);
   const bool tips = problem.film.work_of_adhesion > 0;
   if (status == SB_ERROR_INFEASIBLE && (problem.film.hamaker > 0 || tips)) {
-    sb_warn(&run->summary.warnings, "film-snap-in",
-            tips ? SB_FILM_IN_WORK_OF_ADHESION : SB_FILM_IN_HAMAKER,
-            "the %s seal's film in time is that without adhesion: %s", sb_seal_name(seal),
-            report->text);
+    sb_warn_serious(&run->summary.warnings, "film-snap-in",
+                    tips ? SB_FILM_IN_WORK_OF_ADHESION : SB_FILM_IN_HAMAKER,
+                    "the %s seal's film in time is that without adhesion: %s", sb_seal_name(seal),
+                    report->text);
     problem.film.hamaker = problem.film.work_of_adhesion = 0;
     status = sb_film_transient_create(&history->film, &problem, report);
   }
@@ -225,8 +225,8 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
           "films before, the motion",
           sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
           own.text);
-      sb_warn(&summary->warnings, "film-history", sb_input(SB_P_MODELS_FILM_TIME), "%s",
-              whole.text);
+      sb_warn_serious(&summary->warnings, "film-history", sb_input(SB_P_MODELS_FILM_TIME), "%s",
+                      whole.text);
       for (; at < run->frames + count; at++) {
         at->seal[seal].film_min = at->seal[seal].film_central = at->seal[seal].lambda = NAN;
         at->seal[seal].real_area_share = NAN;

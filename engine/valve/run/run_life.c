@@ -389,9 +389,9 @@ SbStatus sb_run_rest_of_life(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     life->leakage = life->carried = NAN;
   }
   if (life->failure > 0) {
-    sb_warn(&run->summary.warnings, "life-no-return", sb_input(SB_P_SURFACE_GT_PRODUCT),
-            "the life ends at actuation %ld of %ld: its stem does not return", life->failure,
-            count);
+    sb_warn_serious(&run->summary.warnings, "life-no-return", sb_input(SB_P_SURFACE_GT_PRODUCT),
+                    "the life ends at actuation %ld of %ld: its stem does not return",
+                    life->failure, count);
   }
   return status;
 }

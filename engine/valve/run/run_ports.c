@@ -38,10 +38,11 @@ static SbStatus check_ports(const SbChamberModel *chamber, const SbModel *model,
 
 // Warns if the chamber never reaches the vent, which is open from `low` to `high` [m].
 static void warn_no_vent(const SbValve *valve, double low, double high) {
-  sb_warn(&valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
-          "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
-          "moves from 0 to %.3g mm",
-          1e3 * low, 1e3 * high, 1e3 * valve->run->model->stroke);
+  sb_warn_serious(
+      &valve->run->summary.warnings, "ports-no-vent", sb_input(SB_P_BORE_VENT_POSITION),
+      "the dose chamber never reaches the vent: it would at a stem of %.3g to %.3g mm, which "
+      "moves from 0 to %.3g mm",
+      1e3 * low, 1e3 * high, 1e3 * valve->run->model->stroke);
 }
 
 SbStatus sb_valve_set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report) {

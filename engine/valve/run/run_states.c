@@ -88,7 +88,7 @@ static void report_failure(const Task *task, SbReport *report) {
       complete ? "the last solution"
       : fitted ? "its fitment, the other states"
                : "the other states");
-  sb_warn(&task->lane->warnings, "not-converged", report->input, "%s", report->text);
+  sb_warn_serious(&task->lane->warnings, "not-converged", report->input, "%s", report->text);
   if (task->motion != SB_RUN_REST && !complete && task->lane->lacks.status == SB_OK) {
     task->lane->lacks = *report;
   }
@@ -127,8 +127,8 @@ static SbStatus keep_shapes(const Task *of, const SbRing *ring, SbReport *report
   if (status == SB_OK || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     return status;
   }
-  sb_warn(&lane->warnings, "ring-shape", sb_input(SB_P_MODELS_FIT),
-          "no solved shape of the inner ring over the land's edge: drawn schematically");
+  sb_warn_serious(&lane->warnings, "ring-shape", sb_input(SB_P_MODELS_FIT),
+                  "no solved shape of the inner ring over the land's edge: drawn schematically");
   return SB_OK;
 }
 

@@ -177,10 +177,10 @@ const char *sb_sliding_stroke(const SbSlidingTask *task) {
 
 void sb_ring_warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state) {
   const bool rolls = state->section == SB_RING_ROLLS;
-  sb_warn(warnings, rolls ? "ring-rolls" : "ring-jams", SB_CONTACT_IN_FLOOR_FRICTION,
-          "the %s ring %s %s: its section carries %.0f %% of its friction, turned by %.0f°",
-          sb_seal_name(task->seal), rolls ? "rolls" : "jams", sb_sliding_stroke(task),
-          100 * state->borne_share, state->rotation);
+  sb_warn_serious(warnings, rolls ? "ring-rolls" : "ring-jams", SB_CONTACT_IN_FLOOR_FRICTION,
+                  "the %s ring %s %s: its section carries %.0f %% of its friction, turned by %.0f°",
+                  sb_seal_name(task->seal), rolls ? "rolls" : "jams", sb_sliding_stroke(task),
+                  100 * state->borne_share, state->rotation);
 }
 
 // Solves a round of a drag: the ring dragged by `law` (NULL: as it is known) and its film. *like is

@@ -257,7 +257,7 @@ SbStatus sb_edge_respeed(SbSealState *state, const SbSlidingTask *task, const Sb
 }
 
 void sb_edge_warn_limit(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state) {
-  sb_warn(
+  sb_warn_serious(
       warnings, "gasket-detaches", sb_input(SB_P_FRICTION_SHEAR_STRENGTH),
       "the friction of the %s gasket %s exceeds half of its pressure, where the surface of the "
       "rubber folds and no steady contact was found: the gasket carries %.0f %% of that friction",
