@@ -162,6 +162,12 @@ char *sb_limit_format(int figure, double low, double high) {
              : g_strdup_printf("%s %s", isfinite(low) ? ">=" : "<=", first);
 }
 
+int sb_figure_stage_force(SbStage stage) {
+  char path[64];
+  g_snprintf(path, sizeof path, "cycle.stages.%s.force_N", sb_stage_name(stage));
+  return sb_figure_find(path);
+}
+
 char *sb_figure_label(int index) {
   const SbFigure *figure = sb_figure(index);
   return g_strconcat(figure->label, *figure->where != '\0' ? ", " : "", figure->where, NULL);

@@ -37,6 +37,9 @@ char *sb_figure_given(int index, double value);
 // end is open.
 char *sb_limit_format(int figure, double low, double high);
 
+// Returns the figure that is the force at a stage, an index of sb_figure().
+int sb_figure_stage_force(SbStage stage);
+
 // Returns the label of a figure with its seal or stage, untranslated: "Load, outer seal".
 char *sb_figure_label(int index);
 

@@ -154,9 +154,7 @@ static double known(double error) {
 }
 
 char *sb_chart_stage_force(char *out, const SbChartRun *run, SbStage stage, double force) {
-  char path[64];
-  g_snprintf(path, sizeof path, "cycle.stages.%s.force_N", sb_stage_name(stage));
-  const int figure = sb_figure_find(path);
+  const int figure = sb_figure_stage_force(stage);
   const bool known = run->summary != NULL && isfinite(sb_figure_value(run->summary, figure));
   return known ? sb_format_figure(out, run->summary, figure)
                : sb_figure_text(out, figure, force, NAN);

@@ -7,8 +7,8 @@
 #include <string.h>
 
 static double drive_speed(const SbDocument *document) {
-  return sb_measured_speed(sb_document_value(document, SB_P_DRIVE_KIND),
-                           sb_document_value(document, SB_P_DRIVE_SPEED));
+  return sb_data_drive_speed(sb_document_value(document, SB_P_DRIVE_KIND),
+                             sb_document_value(document, SB_P_DRIVE_SPEED));
 }
 
 SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *operand) {
@@ -55,8 +55,8 @@ void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues
 }
 
 char *sb_cli_comparison_brief(const SbComparison *comparison) {
-  g_autofree char *rms = sb_quantity_round(comparison->rms, "N", "N", 4);
-  g_autofree char *most = sb_quantity_round(comparison->most, "N", "N", 4);
+  g_autofree char *rms = sb_measured_difference(comparison->rms);
+  g_autofree char *most = sb_measured_difference(comparison->most);
   return g_strdup_printf("Measured: %s, difference %s (root mean square), at most %s",
                          comparison->measured->name, rms, most);
 }
@@ -65,9 +65,12 @@ void sb_cli_comparison(const SbComparison *comparison) {
   sb_cli_recognised(comparison->measured);
   g_autoptr(SbTable) stages = sb_measured_stages(comparison);
   sb_cli_table(stages, NULL);
-  sb_cli_figure("Difference, root mean square", comparison->rms, "N", "N");
-  sb_cli_figure("Difference, mean", comparison->mean, "N", "N");
-  sb_cli_figure("Difference, maximum", comparison->most, "N", "N");
+  g_autofree char *rms = sb_measured_difference(comparison->rms);
+  g_autofree char *mean = sb_measured_difference(comparison->mean);
+  g_autofree char *most = sb_measured_difference(comparison->most);
+  sb_cli_line("Difference, root mean square", rms);
+  sb_cli_line("Difference, mean", mean);
+  sb_cli_line("Difference, maximum", most);
   if (comparison->outside > 0) {
     printf("  %zu of %zu points are outside the run's displacements\n", comparison->outside,
            comparison->count);

@@ -1,6 +1,8 @@
 // Measured less computed; see the header.
 #include "app/data/compare.h"
 
+#include "app/base/figure_text.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -23,6 +25,7 @@ bool sb_loop_take(SbLoop *loop, const SbRun *run) {
   for (int s = 0; s < SB_STAGE_COUNT; s++) {
     loop->stage_displacement[s] = mark[s].reached ? mark[s].displacement : NAN;
     loop->stage_force[s] = mark[s].reached ? mark[s].force : NAN;
+    loop->stage_error[s] = sb_figure_error(sb_run_summary(run), sb_figure_stage_force((SbStage)s));
   }
   for (int way = 0; way < 2; way++) {
     loop->count[way] = 0;
@@ -96,6 +99,7 @@ SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loo
   out->rms = rows > 0 ? sqrt(square / rows) : NAN;
   memcpy(out->model_displacement, loop->stage_displacement, sizeof loop->stage_displacement);
   memcpy(out->model_force, loop->stage_force, sizeof loop->stage_force);
+  memcpy(out->model_error, loop->stage_error, sizeof loop->stage_error);
   if (measured->last > measured->first) {
     sb_measured_band(&out->band, measured);
   }

@@ -15,6 +15,7 @@ typedef struct {
   double *force[2];                          // of the drive on the stem [N]
   double stage_displacement[SB_STAGE_COUNT]; // just before the event [m]; NaN: not reached
   double stage_force[SB_STAGE_COUNT];        // [N]
+  double stage_error[SB_STAGE_COUNT];        // of the force, as sb_figure_error()
 } SbLoop;
 
 // Replaces the content of `loop` with the loop of a finished run, and reuses its memory. Returns
@@ -26,8 +27,8 @@ bool sb_loop_take(SbLoop *loop, const SbRun *run);
 void sb_loop_clear(SbLoop *loop);
 
 // Returns the force of the loop [N] at a displacement [m], linear between points, on the in-stroke
-// (`way` 0) or on the return (1). Up to 1 % of the stroke outside the points it is the force of the
-// nearest one; further outside, and without two points, NaN.
+// (`way` 0) or on the return (1). Up to 1 % of their range outside the points it is the force of
+// the nearest one; further outside, and without two points, NaN.
 double sb_loop_force(const SbLoop *loop, int way, double displacement);
 
 // Largest number of points of a comparison.
@@ -44,6 +45,7 @@ typedef struct {
   double most;                // largest magnitude of a residual [N]; NaN without a residual
   double model_displacement[SB_STAGE_COUNT]; // of the loop, just before the event [m]
   double model_force[SB_STAGE_COUNT];        // [N]; NaN: stage not reached
+  double model_error[SB_STAGE_COUNT];        // of the force, as sb_figure_error()
   SbMeasuredBand band; // scatter of the measured cycles; `end` is 0 if only one cycle is used
 } SbComparison;
 

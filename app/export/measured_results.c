@@ -1,7 +1,8 @@
 // JSON of measured loops; see the header.
 #include "app/export/measured_results.h"
 
-#include "engine/valve/figures/figures.h"
+#include "app/base/figure_text.h"
+#include "app/base/unit.h"
 
 #include <math.h>
 
@@ -61,6 +62,21 @@ static void put_recognised(SbJson *json, const SbMeasured *m) {
   sb_json_object_end(json);
 }
 
+void sb_measured_stage_texts(char *out[3], const SbComparison *comparison, SbStage stage) {
+  const SbMeasuredStage *seen = &comparison->measured->stage[stage];
+  const int figure = sb_figure_stage_force(stage);
+  const double force = seen->found ? seen->force : NAN, model = comparison->model_force[stage];
+  const double error = comparison->model_error[stage];
+  out[0] = sb_figure_format(figure, force, seen->deviation / fabs(force));
+  out[1] = sb_figure_format(figure, model, error);
+  out[2] = sb_figure_format(figure, force - model,
+                            hypot(seen->deviation, error * model) / fabs(force - model));
+}
+
+char *sb_measured_difference(double force) {
+  return isfinite(force) ? sb_quantity_round(force, "N", "N", 3) : g_strdup("-");
+}
+
 SbTable *sb_measured_stages(const SbComparison *comparison) {
   static const SbTableColumn columns[] = {
       {.layout = "  %-10s", .label = "Stage", .width = 1},
@@ -79,9 +95,11 @@ SbTable *sb_measured_stages(const SbComparison *comparison) {
     const double force = found ? stage->force : NAN, model = comparison->model_force[s];
     const char *name = sb_stage_name((SbStage)s);
     g_autofree char *label = g_strdup_printf("Stage %s", name);
-    sb_table_add(table, SB_CELLS(sb_cell_text_as(name, label), sb_cell_quantity(force, "N", "N", 4),
-                                 sb_cell_quantity(model, "N", "N", 4),
-                                 sb_cell_quantity(force - model, "N", "N", 4),
+    char *text[3];
+    sb_measured_stage_texts(text, comparison, (SbStage)s);
+    sb_table_add(table, SB_CELLS(sb_cell_text_as(name, label), sb_cell_number_own(force, text[0]),
+                                 sb_cell_number_own(model, text[1]),
+                                 sb_cell_number_own(force - model, text[2]),
                                  sb_cell_number(found ? stage->displacement : NAN),
                                  sb_cell_number(comparison->model_displacement[s]),
                                  sb_cell_number(found ? stage->deviation : NAN),

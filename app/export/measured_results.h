@@ -9,6 +9,14 @@
 // Writes the object `key`: differences between measurement and run, how the file was read, stages.
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);
 
+// Writes with units, in ASCII, the measured force of a stage, the model's and their difference,
+// each with the digits that its error supports; "-" where there is none. Freed by the caller.
+void sb_measured_stage_texts(char *out[3], const SbComparison *comparison, SbStage stage);
+
+// Returns a difference of forces (rms, mean, most of a comparison) with unit, in ASCII; "-" if it
+// is NaN. Freed by the caller.
+char *sb_measured_difference(double force);
+
 // Returns the table of the stages B to F, measured and computed; in JSON each stage is a member
 // named by its letter. Freed by sb_table_free().
 SbTable *sb_measured_stages(const SbComparison *comparison);

@@ -24,8 +24,7 @@
 #include <math.h>
 #include <string.h>
 
-#define DOT  "  \xc2\xb7  "
-#define DASH "\xe2\x80\x93"
+#define DOT "  \xc2\xb7  "
 
 // What the pictures share.
 typedef struct {
@@ -227,20 +226,15 @@ static void draw_shelf(cairo_t *cr, SbRect rect, const SbTheme *theme, const voi
                 &((const Scene *)of)->data);
 }
 
-static char *newtons(double force) {
-  char text[SB_FORMAT_MAX];
-  return isfinite(force) ? g_strdup(sb_format_text(text, SB_QUANTITY_FORCE, force, NAN))
-                         : g_strdup(DASH);
-}
-
 static void draw_measured(SbReportPages *pages, const SbComparison *comparison) {
   const SbMeasured *measured = comparison->measured;
   g_autofree char *heading = g_strdup_printf("Measured: %s", measured->name);
   sb_report_heading(pages, heading, 120);
   g_autoptr(SbTable) table = sb_measured_stages(comparison);
   sb_report_table(pages, table);
-  g_autofree char *rms = newtons(comparison->rms), *most = newtons(comparison->most);
-  g_autofree char *mean = newtons(comparison->mean);
+  g_autofree char *rms = sb_measured_difference(comparison->rms),
+                  *most = sb_measured_difference(comparison->most);
+  g_autofree char *mean = sb_measured_difference(comparison->mean);
   g_autofree char *sum =
       g_strdup_printf("Differences at equal displacement, measured less model: root mean square "
                       "%s, mean %s, maximum %s, over %zu points.",

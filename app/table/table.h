@@ -66,6 +66,12 @@ static inline SbTableCell sb_cell_number_as(double number, const char *shown) {
   return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number, .shown = shown};
 }
 
+// Returns a cell with `number` in files and, for people, the text `shown`, which sb_table_add()
+// frees.
+static inline SbTableCell sb_cell_number_own(double number, char *shown) {
+  return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number, .own = shown};
+}
+
 // Returns a cell with a text that sb_table_add() frees; NULL: an empty one.
 static inline SbTableCell sb_cell_own(char *text) {
   return (SbTableCell){.kind = SB_CELL_TEXT, .own = text};

@@ -5,6 +5,7 @@
 #include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
+#include "app/export/measured_results.h"
 #include "app/session/verdict_text.h"
 #include "app/session/worker.h"
 
@@ -194,13 +195,13 @@ static int draw_stages(SbBench *bench, const SbComparison *measured, int y) {
     if (isnan(has) && isnan(model)) {
       continue;
     }
-    const double value[] = {has, model, has - model};
+    char *value[3];
+    sb_measured_stage_texts(value, measured, (SbStage)s);
     y++;
     sb_cells_text(cells, 5, y, 2, sb_stage_name((SbStage)s), plain);
     for (int i = 0; i < 3; i++) {
-      char text[SB_FORMAT_MAX];
-      sb_format_text(text, SB_QUANTITY_FORCE, value[i], 0);
-      sb_cells_text_right(cells, 7 + 11 * i, y, 11, text, plain);
+      sb_cells_text_right(cells, 7 + 11 * i, y, 11, value[i], plain);
+      g_free(value[i]);
     }
   }
   return y;
@@ -227,9 +228,8 @@ static void draw_calibrate(SbBench *bench, SbCellRect rect) {
   }
   enum { TABLE = 40 };
   const int y = draw_stages(bench, measured, rect.y + 2);
-  char rms[SB_FORMAT_MAX], most[SB_FORMAT_MAX];
-  sb_format_text(rms, SB_QUANTITY_FORCE, measured->rms, 0);
-  sb_format_text(most, SB_QUANTITY_FORCE, measured->most, 0);
+  g_autofree char *rms = sb_measured_difference(measured->rms);
+  g_autofree char *most = sb_measured_difference(measured->most);
   g_autofree char *text =
       g_strdup_printf(_("rms %s, at most %s, %zu rows"), rms, most, measured->count);
   sb_cells_text(cells, 1, y + 2, TABLE - 2, text, plain);
