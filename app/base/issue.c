@@ -1,6 +1,8 @@
 // Lists of problems, and text of strangers made fit to print.
 #include "app/base/issue.h"
 
+#include "app/base/error.h"
+
 #include <stdarg.h>
 #include <stdbool.h>
 #include <string.h>
@@ -118,6 +120,15 @@ const char *sb_issue_key(const SbIssue *issue, int *group_length) {
   const char *dot = named ? strchr(issue->key, '.') : strrchr(issue->key, '.');
   *group_length = dot != NULL ? (int)(dot - issue->key) : 0;
   return dot != NULL ? dot + 1 : issue->key;
+}
+
+bool sb_issue_error(GError **error, const SbIssue *issue) {
+  if (issue->choice.key != NULL) {
+    g_autofree char *values = g_strjoinv("\n", issue->choice.value);
+    return sb_app_error_choose(error, issue->choice.key, values, "%s", issue->text);
+  }
+  return issue->line > 0 ? sb_app_error_input(error, "line %d: %s", issue->line, issue->text)
+                         : sb_app_error_input(error, "%s", issue->text);
 }
 
 char *sb_issue_line(const SbIssue *issue) {

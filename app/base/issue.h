@@ -55,6 +55,10 @@ void sb_issues_add_copy(GPtrArray *issues, const SbIssue *issue);
 // group.
 const char *sb_issue_key(const SbIssue *issue, int *group_length);
 
+// Sets an error with the issue's line and text, as sb_app_error_input(), or with its choice, as
+// sb_app_error_choose(). Always returns false. `error` may be NULL.
+bool sb_issue_error(GError **error, const SbIssue *issue);
+
 // Returns the issue as a line, "piston.valve: [gland] radial_space: 9 m is out of range (allowed
 // 0.1 to 20 mm)".
 char *sb_issue_line(const SbIssue *issue);

@@ -70,8 +70,8 @@ static void check_measured(Check *check) {
   SbData *data = sb_data_of_file(check->shown);
   SbParams params;
   sb_params_init(&params);
-  const double speed = sb_measured_speed(sb_params_get(&params, SB_P_DRIVE_KIND),
-                                         sb_params_get(&params, SB_P_DRIVE_SPEED));
+  const double speed = sb_data_drive_speed(sb_params_get(&params, SB_P_DRIVE_KIND),
+                                           sb_params_get(&params, SB_P_DRIVE_SPEED));
   check->measured = sb_measured_parse(data, speed, check->text, check->length, issues);
   sb_data_free(data);
   if (check->measured == NULL) {

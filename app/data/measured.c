@@ -3,8 +3,6 @@
 
 #include "app/base/number.h"
 
-#include "engine/valve/model/valve.h"
-
 #include <math.h>
 #include <string.h>
 
@@ -400,10 +398,6 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   m->behind = m->count - count;
   m->count = count;
   return true;
-}
-
-double sb_measured_speed(double kind, double speed) {
-  return (int)kind == SB_MODEL_DRIVE_MACHINE ? speed : 0;
 }
 
 static SbMeasured *read_table(SbTextTable *table, const SbData *data, double speed,

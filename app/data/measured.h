@@ -93,9 +93,9 @@ typedef struct {
 } SbMeasured;
 
 // Reads the file of the group `data`. `speed` is the speed of the scene's drive [m/s], for a file
-// without displacement (0: the drive has none, see sb_measured_speed()). Returns NULL with at least
-// one issue: the file cannot be read, its format, columns or units are ambiguous or missing, fewer
-// than 8 rows, no stroke, or a value out of range. `data` may be freed afterwards. Freed by
+// without displacement (0: the drive has none, see sb_data_drive_speed()). Returns NULL with at
+// least one issue: the file cannot be read, its format, columns or units are ambiguous or missing,
+// fewer than 8 rows, no stroke, or a value out of range. `data` may be freed afterwards. Freed by
 // sb_measured_free(). A list of cycles is an issue: sb_data_split() divides such a group first.
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
@@ -103,10 +103,6 @@ SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues
 // NULL bytes: from the file.
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues);
-
-// Returns the `speed` for sb_measured_load() [m/s] from the values of drive.kind (an SbDriveChoice)
-// and drive.speed [m/s]: the latter for the test machine, 0 for other drives.
-double sb_measured_speed(double kind, double speed);
 
 // Frees a measured loop.
 void sb_measured_free(SbMeasured *measured);

@@ -3,6 +3,8 @@
 
 #include "app/base/reader.h"
 
+#include "engine/valve/model/valve.h"
+
 #include <string.h>
 
 const char *const sb_data_separators[] = {"comma", "semicolon", "tab", "bar", "blank", NULL};
@@ -84,7 +86,11 @@ size_t sb_data_word(const SbData *data, SbDataKey key, const char *const *words,
     g_autofree char *allowed = g_strjoinv(", ", (char **)words);
     sb_data_add_issue(data, key, allowed, issues, "\"%s\" is not one of these", data->text[key]);
   }
-  return data->text[key] != NULL ? index + 1 : 0;
+  return data->text[key] != NULL && words[index] != NULL ? index + 1 : 0;
+}
+
+double sb_data_drive_speed(double kind, double speed) {
+  return (int)kind == SB_MODEL_DRIVE_MACHINE ? speed : 0;
 }
 
 static SbData *find(const GPtrArray *list, const char *name) {

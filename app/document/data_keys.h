@@ -50,9 +50,14 @@ typedef struct {
 extern const char *const sb_data_separators[], *const sb_data_decimals[];
 extern const char *const sb_data_dates[], *const sb_data_directions[];
 
-// Returns the number in `words` (ended by NULL) of a key's text, from 1; 0 for an absent key.
-// Another text is an issue.
+// Returns the number in `words` (ended by NULL) of a key's text, counted from 1 (the index above is
+// this number minus 1); 0 for an absent key, and for another text, which is an issue.
 size_t sb_data_word(const SbData *data, SbDataKey key, const char *const *words, GPtrArray *issues);
+
+// Returns the constant speed [m/s] of a drive with the values `kind` of drive.kind (an
+// SbDriveChoice) and `speed` of drive.speed [m/s]: the latter of the test machine, 0 of other
+// drives.
+double sb_data_drive_speed(double kind, double speed);
 
 // Returns the name of a key ("columns").
 const char *sb_data_key_name(SbDataKey key);
@@ -62,7 +67,9 @@ bool sb_data_is_group(const char *group);
 
 // Returns the groups among the entries (of SbEntry, app/base/reader.h) of a file as an array of
 // SbData that owns its elements, in the order of the file. Relative file names start in `directory`
-// (NULL: the current one); `shown` names the file in issues.
+// (NULL: the current one); `shown` names the file in issues. Never NULL: groups with an issue stay
+// in the array (without a file their `path` is NULL), groups after the first SB_DATA_MAX are left
+// out.
 GPtrArray *sb_data_read(const GPtrArray *entries, const char *directory, const char *shown,
                         GPtrArray *issues);
 

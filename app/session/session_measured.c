@@ -24,8 +24,8 @@ static void on_read(void *data) {
 }
 
 double sb_session_drive_speed(SbSession *session) {
-  return sb_measured_speed(sb_document_value(session->document, SB_P_DRIVE_KIND),
-                           sb_document_value(session->document, SB_P_DRIVE_SPEED));
+  return sb_data_drive_speed(sb_document_value(session->document, SB_P_DRIVE_KIND),
+                             sb_document_value(session->document, SB_P_DRIVE_SPEED));
 }
 
 void sb_session_read_measured(SbSession *session) {

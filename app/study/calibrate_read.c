@@ -96,8 +96,8 @@ bool sb_calibrate_read_curve(Curve *curve, const Work *work, GPtrArray *issues) 
   if (!read_set(curve, issues)) {
     return false;
   }
-  const double speed = sb_measured_speed(set_value(curve, work, SB_P_DRIVE_KIND),
-                                         set_value(curve, work, SB_P_DRIVE_SPEED));
+  const double speed = sb_data_drive_speed(set_value(curve, work, SB_P_DRIVE_KIND),
+                                           set_value(curve, work, SB_P_DRIVE_SPEED));
   curve->measured = sb_measured_load(curve->data, speed, issues);
   if (curve->measured == NULL || !read_actuation(curve, issues)) {
     return false;

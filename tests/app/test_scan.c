@@ -283,6 +283,18 @@ static void test_matrix(void) {
   assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
                  "line 18 has not 20 numbers");
   g_string_free(text, TRUE);
+  // Positions in front of the heights and above them are no heights.
+  text = g_string_new("0");
+  for (int i = -1; i < ROWS; i++) {
+    for (int j = i < 0 ? 0 : -1; j < COLUMNS; j++) {
+      const double number = i < 0 ? 0.5 * j : j < 0 ? 2.0 * i : i * j % 7;
+      g_string_append_printf(text, "%s%.2f", j < 0 ? "" : "\t", number);
+    }
+    g_string_append(text, "\n");
+  }
+  assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
+                 "its first column has even steps");
+  g_string_free(text, TRUE);
   text = matrix(spip, " ", '.', "0");
   g_string_truncate(text, text->len - 100);
   assert_refused(text->str, text->len, &plain, "numbers where the header announces 20 x 17");

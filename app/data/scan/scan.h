@@ -26,11 +26,11 @@ typedef struct {
   // Number (as the file has it) or title of a channel of a .gwy; NULL: its only channel of heights.
   const char *channel;
   double spacing; // distance of the points in x and y, in place of the file's [m]; 0: the file's
-  // For text files only; another format that states its units is refused if one of these is set.
+  // For a text file; a file of another format is refused if one of these two is set.
   double unit;          // metres per unit of the heights, e.g. 1e-6; 0: as the file states
   double lateral_unit;  // metres per unit of x and y; 0: as the file states, else `unit`
-  char decimal;         // '.' or ','; 0: as the file shows
-  gboolean ignore_mask; // use masked points of a .gwy as if they were measured
+  char decimal;         // of a text file, '.' or ','; 0: as the file shows
+  gboolean ignore_mask; // of a .gwy: use masked points as if they were measured
 } SbScanChoices;
 
 // A scan. Freed by sb_scan_clear().

@@ -54,6 +54,11 @@ bool sb_scan_is_grid(const SbScanText *text) {
          (double)x.count * (double)y.count <= 4.0 * (double)text->matrix.rows;
 }
 
+bool sb_scan_is_placed(const SbScanText *text) {
+  const gsize rows = text->matrix.rows; // of which the first one may have no position
+  return rows > 8 && text->matrix.ragged == 0 && find_axis(text, 0).count + 1 >= rows;
+}
+
 bool sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
                   GError **error) {
   const Axis x = find_axis(text, 0), y = find_axis(text, 1);
@@ -96,8 +101,6 @@ bool sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double
           each, i + 1, step);
     }
   }
-  if (text->matrix.columns > 1) {
-    out->heights.dx = lateral * fabs(step);
-  }
+  out->heights.dx = text->matrix.columns > 1 ? lateral * fabs(step) : 0;
   return true;
 }

@@ -41,14 +41,8 @@ static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDi
   SbScanEntry *entry = g_new0(SbScanEntry, 1);
   g_autofree char *unit = take_brackets(key);
   g_autofree char *folded = g_utf8_strdown(key, -1);
-  GString *plain = g_string_new(NULL);
-  for (const char *c = folded; *c != '\0'; c = g_utf8_next_char(c)) {
-    const gunichar letter = g_utf8_get_char(c);
-    if (g_unichar_isalnum(letter)) {
-      g_string_append_unichar(plain, letter);
-    }
-  }
-  entry->key = g_string_free(plain, false);
+  g_autoptr(GRegex) other = g_regex_new("[^\\pL\\pN]", 0, 0, NULL);
+  entry->key = g_regex_replace_literal(other, folded, -1, 0, "", 0, NULL);
   entry->value = g_strstrip(g_strdup(line + at + 1));
   const gsize number = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
   entry->number = number > 0 ? entry->number : NAN;
@@ -202,6 +196,9 @@ static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *
     return sb_app_error_input(error, "line %d has not %" G_GSIZE_FORMAT " numbers as the first",
                               text->matrix.ragged, columns);
   }
+  if (matrix && sb_scan_is_placed(text)) {
+    return sb_app_error_input(error, "its first column has even steps as positions: remove it");
+  }
   if (!find_units(&h, out, text, choices, matrix ? h.bare && !spaced : columns > 1, error)) {
     return false;
   }
@@ -233,11 +230,8 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                     sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
   if (!read) {
     const SbIssue *issue = issues->pdata[0];
-    const bool chosen = issue->choice.key != NULL;
-    g_autofree char *values = chosen ? g_strjoinv("\n", issue->choice.value) : NULL;
-    return chosen ? sb_app_error_choose(error, issue->choice.key, values, "%s", issue->text)
-           : issue->line > 0
-               ? sb_app_error_input(error, "line %d: %s", issue->line, issue->text)
+    return issue->choice.key != NULL || issue->line > 0
+               ? sb_issue_error(error, issue)
                : sb_app_error_input(
                      error, "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
                      issue->text);
