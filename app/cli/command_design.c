@@ -33,15 +33,21 @@ static char *limits_text(const SbStudyFile *study, const SbDesign *design, int f
       g_autofree char *bound = sb_limit_format(figure, limit->low, limit->high);
       const double margin = sb_design_margin(design, study, k);
       const int column = sb_study_column_of(study, figure);
-      // The limit is exact: the margin has the absolute error of the figure.
-      const double error = fabs(design->error[column] * design->figure[column] / margin);
+      const double value = design->figure[column];
+      // The limit is exact: the margin has the absolute error of the figure, and none of its own
+      // below the figure's digits.
+      const double error = fabs(design->error[column] * value / margin);
       g_autofree char *by = sb_figure_format(figure, fabs(margin), error);
-      const bool active = design->limit_active[2 * k] || design->limit_active[2 * k + 1];
-      g_string_append_printf(out, " %s: %s%s%s", bound, isnan(margin) ? "not known" : by,
-                             isnan(margin) ? ""
-                             : margin < 0  ? " beyond it"
-                                           : " within it",
-                             active ? ", active" : "");
+      const bool none = fabs(margin) < pow(10, -sb_figure(figure)->digits) * fabs(value);
+      g_string_append_printf(
+          out, " %s: %s%s%s", bound,
+          isnan(margin) ? "not known"
+          : none        ? "at the limit"
+                        : by,
+          isnan(margin) || none ? ""
+          : margin < 0          ? " beyond it"
+                                : " within it",
+          design->limit_active[2 * k] || design->limit_active[2 * k + 1] ? ", active" : "");
     }
   }
   return g_string_free(out, FALSE);
