@@ -11,11 +11,11 @@ typedef struct {
   int line;
 } SbDxfItem;
 
-// A place in the text, and the pair that was read last.
+// A place in the text, and the pair that was read last, which calls set after the first three.
 typedef struct {
   SbDxfItem next;  // remainder of the text
   const char *end; // of the text
-  char separator;  // of lines
+  char separator;  // that ends a line, '\n' or '\r'
   int code;
   char value[512]; // trimmed, cut
 } SbDxfReader;
@@ -23,7 +23,8 @@ typedef struct {
 // Values that an entity may repeat.
 enum { SB_DXF_X, SB_DXF_Y, SB_DXF_BULGE, SB_DXF_KNOT, SB_DXF_WEIGHT, SB_DXF_LISTS };
 
-// An entity: its values by group code. A POLYLINE has the points of its VERTEX entities.
+// An entity: its values by group code, in units of the file; 0 (230: 1) for a code that it has not.
+// A POLYLINE has the points of its VERTEX entities. Initialise with zeros.
 typedef struct {
   char type[32], layer[256], line_type[256], name[256];
   double number[256];
@@ -51,8 +52,9 @@ static inline bool sb_dxf_is(const SbDxfEntity *entity, const char *type) {
   return strcmp(entity->type, type) == 0;
 }
 
-// Reads an entity from its type on, a POLYLINE up to its last VERTEX, and frees the lists of the
-// one before. Returns false at the end of the text, or with an error.
+// Reads the pair with an entity's type and the pairs up to the next type (of a POLYLINE: up to the
+// end of its last VERTEX), which is the next pair then. Frees the lists that `entity` had. Returns
+// false at the end of the text, or with an error, which must not be NULL.
 bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error);
 
 // Returns the map that applies `in` first, then `out`.

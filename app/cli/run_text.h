@@ -15,7 +15,7 @@ typedef struct {
   const SbCliPlots *plots;      // whether the loop is drawn
 } SbCliRunText;
 
-// Largest number of lines of a summary.
+// Largest number of lines of a summary on a terminal with 80 columns or more.
 enum { SB_CLI_SUMMARY_LINES = 24 };
 
 // Prints the verdict with its reasons, the eight key figures with the absolute estimates of their

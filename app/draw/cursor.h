@@ -4,10 +4,11 @@
 
 #include "app/draw/canvas.h"
 
-// Draws the dashed line from the present instant down to y = `bottom`.
+// Draws the dashed line from the mark of the present instant down to y = `bottom`, both in pixels
+// of the canvas.
 void sb_cursor_drop(SbCanvas *c, SbPoint now, double bottom);
 
-// Draws the dot of the present instant.
+// Draws the dot of the present instant, in pixels of the canvas.
 void sb_cursor_now(SbCanvas *c, SbPoint now);
 
 // Draws the line at pixel x in the rectangle `plot` of the curves, dots on it at the pixels

@@ -15,7 +15,8 @@
 
 enum { SB_CELLS_COLUMNS_MAX = 1000, SB_CELLS_ROWS_MAX = 400 };
 
-// Colours are 0xRRGGBB; this value is the terminal's own text or background colour.
+// Colours are 0xRRGGBB; this value is the terminal's own text or background colour. As the ground
+// of a pen it keeps the background that a cell has, except in sb_cells_init() and sb_cells_fill().
 #define SB_CELL_OWN UINT32_MAX
 
 // Bits of SbPen.style.
@@ -68,8 +69,7 @@ uint32_t sb_cells_at(const SbCells *cells, int x, int y);
 int sb_cells_width(const SbCells *cells, const char *text);
 
 // Writes one line of UTF-8 text from (x, y) into at most `width` columns; a longer text ends with
-// an ellipsis. A pen whose ground is SB_CELL_OWN keeps the background of each cell. Returns the
-// number of columns written.
+// an ellipsis. Returns the number of columns that the text takes, also outside of the grid.
 int sb_cells_text(SbCells *cells, int x, int y, int width, const char *text, SbPen pen);
 
 // As sb_cells_text(), aligned to the right end of the columns x to x + width - 1.

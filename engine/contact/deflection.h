@@ -4,9 +4,10 @@
 //
 // Columns (6.45): independent laterally constrained columns of height d, v = p d/M,
 //   M = E (1 - nu)/((1 + nu)(1 - 2 nu)). Too stiff near nu = 1/2; no deflection outside contact.
-// Half-space (6.46): under Hertz's pressure p0 sqrt(1 - X^2), X = x/b, the surface is the parabola
-//   x^2/2R in the contact and is above it by (b^2/2R)(|X| sqrt(X^2 - 1) - arcosh|X|) outside
-//   (Johnson, Contact Mechanics, 1985, section 4.3). Only differences of deflections are defined.
+// Half-space (6.46): under Hertz's pressure p0 sqrt(1 - X^2), X = x/b, the deflection is
+//   less than at x = 0 by x^2/2R in the contact, and outside of it by
+//   x^2/2R - (b^2/2R)(|X| sqrt(X^2 - 1) - arcosh|X|), which grows as ln|x| far from it (Johnson,
+//   Contact Mechanics, 1985, section 4.3). Only differences of deflections are defined.
 // Panel (6.55 to 6.66): integral of -ln|x - x'| over a strip: influence coefficient of a uniform
 //   mesh.
 // Flamant (6.3.4): a line load w on the half-space deflects it by -(2 w/(pi E_d)) ln|x/datum|,
@@ -18,8 +19,8 @@
 // `poisson_ratio` < 0.5.
 double sb_deflection_column(double pressure, double height, double modulus, double poisson_ratio);
 
-// Returns the deflection at x = 0 minus that at x [m] of a half-space under Hertz's pressure of
-// `half_width` b > 0 [m] by a cylinder of `radius` R > 0 [m].
+// Returns the deflection at x = 0 minus that at x [m], both positive into the half-space, of a
+// half-space under Hertz's pressure of `half_width` b > 0 [m] by a cylinder of `radius` R > 0 [m].
 double sb_deflection_half_space(double x, double half_width, double radius);
 
 // Returns the influence coefficient of a panel of `width` > 0 at `distance` from its middle, both
@@ -33,6 +34,7 @@ double sb_deflection_flamant(double x, double load, double datum, double modulus
                              double poisson_ratio);
 
 // Returns the approach [m] of the middle of a contact to the centre of a disc of `radius` R [m]
-// between two opposite loads `load` [N/m] with `half_width` b, 0 < b < 4 R [m].
+// between two opposite loads `load` [N/m] with `half_width` b, 0 < b < 4 R [m]. `modulus` is E
+// [Pa].
 double sb_deflection_disc(double load, double half_width, double radius, double modulus,
                           double poisson_ratio);

@@ -74,9 +74,9 @@ typedef struct {
   // Temperature.
   bool entropic;        // modulus proportional to T; modulus_slope is ignored
   double modulus_slope; // beta, dE/dT divided by E at T_0 [1/K]; 0: constant
-  // Range of temperatures in which beta was measured, widened to T_0 if it does not contain it [K].
-  // At a temperature of use outside of it there is the warning "modulus-extrapolated", unless beta
-  // is 0.
+  // Range of temperatures in which beta was measured [K]. At a temperature of use outside of this
+  // range and outside of the temperatures between it and T_0 there is the warning
+  // "modulus-extrapolated", unless beta is 0.
   double slope_from, slope_to;
   double glass_temperature; // T_g [K], below T_0; 0: no glass transition
   double thermal_expansion; // alpha, linear [1/K]
@@ -113,7 +113,8 @@ typedef struct {
   double relaxation;      // E(t)/E_0 by the Prony series alone
   double network;         // f
   double compression_set; // set divided by the squeeze, after recovery_time [1]
-  double section_after_set; // free section after release and recovery [m]
+  double section_after_set; // free section after release and recovery, swollen, at the temperature
+                            // of use [m]
   double uptake;            // M/M_inf
   double volume_swell;      // v
   double linear_swell;      // (1 + v)^(1/3) - 1
