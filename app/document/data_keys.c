@@ -169,7 +169,7 @@ SbData *sb_data_copy(const SbData *data) {
 bool sb_data_same(const SbData *a, const SbData *b) {
   bool same = (a == NULL) == (b == NULL);
   for (int key = 0; key < SB_DATA_KEY_COUNT && same && a != NULL; key++) {
-    same = key == SB_DATA_FILE ? strcmp(a->path, b->path) == 0
+    same = key == SB_DATA_FILE ? g_strcmp0(a->path, b->path) == 0
                                : g_strcmp0(a->text[key], b->text[key]) == 0;
   }
   return same;

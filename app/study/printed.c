@@ -46,13 +46,13 @@ static bool take_line(SbPrinted *printed, const char *path, int number, const ch
     return true;
   }
   g_ptr_array_add(printed->rows, cells);
-  if (g_strv_length(cells) != g_strv_length(printed->name) ||
-      printed->rows->len > SB_PRINTED_ROWS_MAX) {
-    sb_issues_add(issues, path, number, NULL, NULL, "the row has %u cells, the heading %u",
-                  g_strv_length(cells), g_strv_length(printed->name));
-    return false;
+  if (g_strv_length(cells) != g_strv_length(printed->name)) {
+    return sb_issues_add(issues, path, number, NULL, NULL, "the row has %u cells, the heading %u",
+                         g_strv_length(cells), g_strv_length(printed->name));
   }
-  return true;
+  return printed->rows->len <= SB_PRINTED_ROWS_MAX ||
+         sb_issues_add(issues, path, number, NULL, NULL, "has more than %d rows",
+                       SB_PRINTED_ROWS_MAX);
 }
 
 SbPrinted *sb_printed_load(const char *path, GPtrArray *issues) {

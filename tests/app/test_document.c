@@ -404,6 +404,14 @@ static void test_project(void) {
   g_autofree char *same = sb_document_to_text(document, NULL);
   g_assert_cmpstr(same, ==, text);
   g_assert_false(sb_document_is_modified(document));
+  // A group of data without its file is an issue of a document that is shown.
+  g_autofree char *bare = g_strconcat(text, "[data]\nseparator = comma\n", NULL);
+  g_autoptr(GPtrArray) missing = sb_issues_new();
+  g_autoptr(SbDocument) shown = sb_document_parse(bare, strlen(bare), "bare", folder, missing);
+  g_assert_cmpuint(missing->len, ==, 1);
+  g_assert_false(sb_document_is_modified(shown));
+  g_autofree char *written = sb_document_to_text(shown, NULL);
+  g_assert_cmpstr(written, ==, bare);
   // Edits, and back through the text.
   GError *error = NULL;
   g_assert_false(sb_document_put_remark(document, SB_REMARK_BOOKMARK, "x", "soon", &error));

@@ -16,6 +16,11 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     g_assert_true(g_utf8_validate(line, -1, NULL) && strchr(line, '\n') == NULL);
     g_free(line);
   }
+  if (document != NULL) {
+    // As it was read, with issues too: a window shows it so.
+    g_assert_false(sb_document_is_modified(document));
+    g_free(sb_document_to_text(document, NULL));
+  }
   if (document != NULL && issues->len == 0) {
     // An edit, then out and in again.
     g_assert_true(sb_document_set(document, SB_P_SEAL_OUTER_MODULUS, "2.25 MPa", NULL));
