@@ -546,6 +546,11 @@ static void test_thesis_readings(void) {
   g_assert_cmpfloat(solve(&in).load_per_length, >, arc);
   in.variant = SB_DISC_THESIS_PROJECTED;
   g_assert_cmpfloat(solve(&in).load_per_length, <, arc);
+  // Its number is that of fluid on both flanks in the other disc, whose section such fluid shrinks.
+  in.pressure = 0.2e6;
+  in.poisson_ratio = 0.4;
+  in.radial_space = in.section_diameter * (1 - 0.012);
+  g_assert_true(solve(&in).touches);
 }
 
 int main(int argc, char **argv) {

@@ -438,7 +438,7 @@ SbStatus sb_fit_disc(SbFit *out, const SbFitProblem *in, SbReport *report) {
   }
   const bool thesis = in->model == SB_FIT_DISC_THESIS;
   const bool both_flanks =
-      in->variant == SB_DISC_VERTICAL_BOTH || in->variant == SB_DISC_RADIAL_BOTH;
+      !thesis && (in->variant == SB_DISC_VERTICAL_BOTH || in->variant == SB_DISC_RADIAL_BOTH);
   const double both = both_flanks ? fabs(in->pressure) : 0.0;
   const double difference = fabs(in->pressure) - both;
   const double squeeze = 1.0 - in->radial_space / diameter;
