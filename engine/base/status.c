@@ -2,6 +2,7 @@
 #include "engine/base/status.h"
 
 #include <assert.h>
+#include <math.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -66,6 +67,8 @@ static void fail_v(SbReport *report, SbStatus status, int input, const char *for
   if (report != NULL) {
     report->status = status;
     report->cause = SB_CAUSE_OTHER;
+    report->residual = NAN;
+    report->iteration = 0;
     sb_message_v(report->text, sizeof report->text, format, arguments);
     report->input = input;
   }

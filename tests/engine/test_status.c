@@ -8,6 +8,7 @@
 #include "engine/valve/model/params.h"
 
 #include <glib.h>
+#include <math.h>
 
 static void test_report(void) {
   SbReport report = {0};
@@ -17,6 +18,10 @@ static void test_report(void) {
   g_assert_cmpint(report.status, ==, SB_ERROR_RANGE);
   g_assert_cmpstr(report.text, ==, "speed -1 m/s");
   g_assert_cmpstr(sb_input_key(report.input), ==, "drive.speed");
+  // The residual is that of the error alone.
+  report.residual = 1e-3;
+  g_assert_cmpint(sb_fail(&report, SB_ERROR_NOT_CONVERGED, "other"), ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_true(isnan(report.residual));
   g_assert_cmpint(sb_succeed(&report), ==, SB_OK);
   g_assert_cmpstr(report.text, ==, "");
   g_assert_cmpint(sb_fail(NULL, SB_ERROR_INPUT, "no report"), ==, SB_ERROR_INPUT);
