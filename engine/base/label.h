@@ -1,9 +1,9 @@
-// Marks of literal texts that the window shows in the user's language. xgettext finds both
-// (po/meson.build); the engine itself translates nothing.
+// Marks of string literals that the window shows in the user's language. xgettext finds the
+// arguments of both macros (po/meson.build); the engine itself translates nothing.
 #pragma once
 
-// The text is translated.
+// Expands to `text`, a literal that the window translates.
 #define SB_LABEL(text) text
 
-// A text "NAME [UNIT]", of which NAME is translated.
+// Expands to the literal "NAME [UNIT]", of which the window translates `name`.
 #define SB_QUANTITY(name, unit) name " [" unit "]"

@@ -74,7 +74,9 @@ enum {
   SB_VALVE_INPUTS = 10000
 };
 
-// Description of an error, in memory of the caller. Defined after an error only.
+// Description of an error, in memory of the caller. The fields are defined after an error only, and
+// need no initialisation. If `residual` and `iteration` are read, set the report to {0} before the
+// call: functions that are not iterative leave them unchanged.
 typedef struct {
   SbStatus status;
   SbCause cause;
@@ -101,14 +103,14 @@ SbStatus sb_fail_input(SbReport *report, SbStatus status, int input, const char 
 // cause);`. Every other function that writes a report sets SB_CAUSE_OTHER.
 SbStatus sb_fail_because(SbReport *report, SbStatus status, SbCause cause);
 
-// Formats a message into out[size] (size > 3). A message that does not fit is truncated as by
+// Formats a message into out[size] (size > 4). A message that does not fit is truncated as by
 // sb_text(); builds with SB_ASSERT_RUNS abort then. All messages of the engine are formatted by
 // this function.
 void sb_message(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
 // Does the same as sb_message() with an argument list.
 void sb_message_v(char *out, size_t size, const char *format, va_list arguments) SB_PRINTF(3, 0);
 
-// Formats a text into out[size] (size > 3), with a terminating NUL. A text that does not fit is
+// Formats a text into out[size] (size > 4), with a terminating NUL. A text that does not fit is
 // truncated between two UTF-8 characters and ends in "…".
 void sb_text(char *out, size_t size, const char *format, ...) SB_PRINTF(3, 4);
 // Does the same as sb_text() with an argument list.
@@ -142,9 +144,10 @@ typedef struct {
   SbWarning item[SB_WARNINGS_MAX];
 } SbWarnings;
 
-// Adds a warning about the current subject of `list`, with a formatted sentence. Does nothing if
-// the list has a warning with equal code, input and subject. All strings are copied. `list` may be
-// NULL.
+// Adds a warning about the current subject of `list`, with a formatted sentence. `code` is
+// truncated to 47 bytes; `input` 0: no input. "SUBJECT: " is put before the sentence unless the
+// sentence contains the subject. Does nothing if the list has a warning with equal code, input and
+// subject; counts it in `dropped` if the list is full. All strings are copied. `list` may be NULL.
 void sb_warn(SbWarnings *list, const char *code, int input, const char *format, ...)
     SB_PRINTF(4, 5);
 
@@ -153,7 +156,8 @@ void sb_warn_serious(SbWarnings *list, const char *code, int input, const char *
     SB_PRINTF(4, 5);
 
 // Formats a new text into each warning of `list` that has this code and this subject ("": no
-// subject). Does nothing if there is no such warning. `list` must not be NULL.
+// subject). The text must name the subject itself. Does nothing if there is no such warning. `list`
+// must not be NULL.
 void sb_warn_replace(SbWarnings *list, const char *code, const char *subject, const char *format,
                      ...) SB_PRINTF(4, 5);
 

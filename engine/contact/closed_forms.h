@@ -69,11 +69,12 @@ double sb_hertz_half_width(double load_per_length, double radius, double reduced
 
 // Returns the ratio b/R of the half-width to the radius of Hertz's disc between flats. `approach`
 // is the approach of the two flats (2 R minus their distance) divided by R, > 0; `stiffness` is 4
-// E_d/E'. Returns 1 if b would exceed R.
+// E_d/E', 2 for rigid flats. Returns 1 if b would exceed R.
 double sb_hertz_width_of_approach(double approach, double stiffness);
 
-// Returns the diametral interference with the bore [m] of a stretched round ring, whose section
-// shrinks and is flattened on the groove floor by the hoop tension:
+// Returns the interference with the bore [m] of a stretched round ring: the fitted section diameter
+// minus the radial space. The section shrinks and is flattened on the groove floor by the hoop
+// tension:
 //   d (1 - nu e) - delta - g,  e = (D - g)/(ID + d) - 1, D the bore diameter
 //   delta = w/(pi E_d) [2 ln(4 R/b) - 1],  w = E e A/((D - g)/2),  A = (pi/4) d^2 (1 - 2 nu e)
 // delta is half of Hertz's approach on a rigid floor; b and R are those of the shrunk section. Of

@@ -10,8 +10,10 @@
 // diameter minus the bore's; the other values are NaN.
 // The load is the integral of the contact pressure (including the fluid's part) over the contact;
 // load = load_per_length x circumference. The circumference is pi (ID + d) for the closed forms, pi
-// (D - g) for the discs, pi D for the ring. Frictionless except for a dragged ring. x is in the
-// seal's frame.
+// (D - g) for the discs, pi D for the ring. Contact pressures are relative to the fluid of the
+// lower pressure (variants of the disc with fluid on both flanks: to pressure 0, both fluids have
+// |pressure|). Frictionless except for a dragged ring and the walls of a gasket. x is in the seal's
+// frame.
 // The functions may be called concurrently with different results, kept rings and callbacks.
 #pragma once
 
@@ -65,8 +67,8 @@ const SbFitKind *sb_fit_kind(SbFitModel model);
 // the model does not include: only solved sections have them. Its load is then too small.
 bool sb_fit_ignores_walls(SbFitModel model, double gland_fill);
 
-// Returns the typical relative error estimate of a valid model's load at a tolerance (0 to 1); 0:
-// exact.
+// Returns the typical relative error estimate of a valid model's load at a `tolerance` above 0 and
+// below 1. A result of 0 means exact up to rounding (closed forms).
 double sb_fit_load_error(SbFitModel model, double tolerance);
 
 // Finds a model by name. Returns false if there is none; *out is unchanged then.
@@ -90,15 +92,16 @@ typedef struct {
   double modulus;          // E of the rubber [Pa]
   double poisson_ratio;    // nu of the rubber
   double mooney_share;     // ring model only: c2/(c1 + c2) of the rubber, 0: neo-Hookean
-  double housing_modulus;  // E of bore and stem [Pa]; 0 or infinite: rigid
-  double housing_poisson;  // nu of bore and stem
+  double housing_modulus;  // Hertz model only: E of bore and stem [Pa]; 0 or infinite: rigid
+  double housing_poisson;  // Hertz model only: nu of bore and stem
   double radial_space;     // g [m]
   double bore_diameter;    // D [m]
   double gland_width;      // axial width of the groove at its floor [m]
   // Ring model only: angle of the walls [rad], radius of the floor corners [m], chamfer of the
   // edges [m] (SbRingLoad).
   double wall_draft, groove_corner, groove_chamfer;
-  double land_diameter; // ring model only: diameter of the stem next to the groove [m]
+  double land_diameter; // ring model only, with groove_chamfer: diameter of the stem next to the
+                        // groove [m]
   // Ring model only: drawn groove instead of those, borrowed; NULL: none.
   const SbGrooveDrawing *groove;
   // Closed forms only: they squeeze section_diameter_fitted instead of the free section, as the
@@ -158,7 +161,7 @@ typedef struct {
   double stretch_mean;            // [1]
   double stretch_inner;           // [1]
   double section_diameter_fitted; // [m]
-  double interference;            // diametral [m]
+  double interference;            // of the section diameter; gasket: of the bore diameter [m]
   double gland_fill;              // [1]
   double circumference;           // [m]
   double contact_width;           // [m]
@@ -211,7 +214,7 @@ typedef struct {
 // fraction of d - g (closed forms and discs).
 #define SB_FIT_STRETCH_MAX 0.03
 
-// Solves the problem. Errors:
+// Solves the problem. After an error *problem->kept is unchanged. Errors:
 // SB_ERROR_RANGE, SB_ERROR_INPUT: a value is out of range; the report has its input
 // (SB_CONTACT_IN_... of inputs.h).
 // SB_ERROR_INFEASIBLE: the groove floor has no diameter, or the model has no solution.
@@ -221,18 +224,19 @@ typedef struct {
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report);
 
 // Solves a dragged ring for another friction law or pressure with the same direction of sliding. It
-// continues from the present state of *problem->kept, which sb_fit_solve() stored. *out must be the
-// result of that solve; its error estimates remain. After SB_ERROR_NOT_CONVERGED solve it with
-// sb_fit_solve().
+// continues from the present state of *problem->kept (not NULL), which sb_fit_solve() stored. *out
+// must be the result of that solve; its error estimates remain. After an error *out is unchanged;
+// after SB_ERROR_NOT_CONVERGED solve the problem with sb_fit_solve().
 SbStatus sb_fit_again(SbFit *out, const SbFitProblem *problem, SbReport *report);
 
-// Sets *out and *problem->kept (a ring that it already has is freed) to the ring that slides in the
-// opposite direction, by reflecting `ring` and its result `fit`; nothing is solved. Only without
-// fluid pressure. `problem` is that of the new direction. SB_ERROR_NOT_CONVERGED: section or groove
-// is not symmetric.
+// Sets *out and *problem->kept (not NULL; a ring that it already has is freed) to the ring that
+// slides in the opposite direction, by reflecting `ring` and its result `fit`; nothing is solved.
+// Only without fluid pressure. `problem` is that of the new direction. SB_ERROR_NOT_CONVERGED:
+// section or groove is not symmetric.
 SbStatus sb_fit_mirror(SbFit *out, const SbFitProblem *problem, const SbFit *fit,
                        const SbRing *ring, SbReport *report);
 
-// Converts a problem into the body and load of the ring model (ring.h), with the wall on the side
-// of the lower pressure only, or both walls for a gasket, a dragged ring or a drawn groove.
+// Converts a problem that sb_fit_solve() accepts into the body and load of the ring model (ring.h).
+// The load has the wall on the side of the lower pressure only (none without pressure), or both
+// walls for a gasket, a dragged ring or a drawn groove.
 void sb_fit_ring_problem(SbRingBody *body, SbRingLoad *load, const SbFitProblem *problem);

@@ -1,6 +1,7 @@
-// Contact models, called by fit.c. Private to engine/contact. Each function requires a checked
-// problem and a result with the common sizes set (squeeze, stretch, fill), and sets contact,
-// profile, solver information and warnings. Errors are those of sb_fit_solve().
+// Contact models, called by sb_fit_solve(). Private to engine/contact. Each function requires a
+// problem that sb_fit_solve() has checked, and a result that is zero except the common sizes
+// (squeeze, stretch, fill). It sets contact, profile, solver information and warnings. Errors are
+// those of sb_fit_solve().
 #pragma once
 
 #include "engine/contact/fit.h"
@@ -17,7 +18,7 @@ SbStatus sb_fit_ring(SbFit *out, const SbFitProblem *in, SbReport *report);
 // Number of profile points that sb_fit_contact() sets.
 enum { SB_FIT_POINTS = 257 };
 
-// Sets contact_left = `left`, contact_right = `right` [m], contact_width, load (from
+// Sets `touches`, contact_left = `left`, contact_right = `right` [m], contact_width, load (from
 // load_per_length and circumference, which must be set), and SB_FIT_POINTS profile positions with
 // zero pressure, denser near the edges.
 void sb_fit_contact(SbFit *out, double left, double right);

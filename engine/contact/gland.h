@@ -12,10 +12,11 @@
 //   interference section_fitted - g     gland_fill (pi/4) d^2 (ID + d)/(g (D - g) b)
 //   squeeze_fitted interference/section_fitted
 //   extrusion_gap D - D_land, diametral
-//   section_diameter_swollen, squeeze_swollen: of the free ring grown by (1 + v)^(1/3)
-//   gland_fill_swollen gland_fill (1 + v)
+//   section_diameter_swollen a d (1 - nu ((D - g)/(a (ID + d)) - 1)),  a = (1 + v)^(1/3)
+//   squeeze_swollen (a d - g)/(a d)     gland_fill_swollen gland_fill (1 + v)
 //
-// d section diameter, ID inner diameter, g radial space, b axial width, D bore diameter.
+// d section diameter, ID inner diameter, g radial space, b axial width, D bore diameter, v volume
+// swell.
 #pragma once
 
 #include "engine/base/status.h"
@@ -89,8 +90,8 @@ typedef enum {
 // Returns "below", "within", "above" or ""; static.
 const char *sb_band_text(SbBand band);
 
-// Returns the position of a value relative to a band. A value within 1e-9 (relative) of an end
-// belongs to the band. Infinite ends are open.
+// Returns the position of a value, which is not NaN, relative to a band. A value within 1e-9
+// (relative) of an end belongs to the band. Infinite ends are open.
 SbBand sb_band_of(double value, double low, double high);
 
 // A design value.

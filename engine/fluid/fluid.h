@@ -115,14 +115,15 @@ typedef struct {
 #define SB_FLUID_ETHANOL_MAX 0.3
 
 // Computes the properties at saturation of `fluid` at `temperature` [K], mixed with the mass
-// fraction `ethanol` (0: pure). Warnings: "mixture-estimate", "viscosity-extrapolated".
-// SB_ERROR_RANGE: `temperature` is outside the fluid's range or `ethanol` outside 0 to
+// fraction `ethanol` (0: pure). Vapour density, surface tension and enthalpy of a mixture are not
+// available. Warnings: "mixture-estimate", "viscosity-extrapolated". SB_ERROR_RANGE: `temperature`
+// is outside the range of the fluid, or of the ethanol in it, or `ethanol` is outside 0 to
 // SB_FLUID_ETHANOL_MAX. SB_ERROR_INPUT: `fluid` is `custom`, or ethanol with a fluid that is not a
 // propellant. SB_ERROR_NOT_CONVERGED: no equilibrium of liquid and vapour was found.
 SbStatus sb_fluid_state(SbFluidState *out, SbWarnings *warnings, const SbFluid *fluid,
                         double temperature, double ethanol, SbReport *report);
 
-// Returns the density [kg/m3] of the vapour at `temperature` [K] and the absolute `pressure` [Pa].
-// NAN if the fluid has no equation of state, the temperature is outside its range, or the pressure
-// is above saturation.
+// Returns the density [kg/m3] of the vapour of the pure `fluid` at `temperature` [K] and the
+// absolute `pressure` [Pa]. NAN if the fluid has no equation of state, the temperature is outside
+// its range, or the pressure is above saturation.
 double sb_fluid_vapour(const SbFluid *fluid, double temperature, double pressure);

@@ -26,7 +26,7 @@
 typedef struct {
   double epsilon; // epsilon/k of the Lennard-Jones potential [K]
   double sigma;   // sigma of the Lennard-Jones potential [nm]
-  // eta_0 = chapman sqrt(mass T)/(sigma^2 exp(sum a_i ln^i (kT/epsilon))), mass in g/mol
+  // eta_0 [Pa.s] = chapman sqrt(mass T)/(sigma^2 exp(sum a_i ln^i (kT/epsilon))), mass in g/mol
   double chapman, mass;
   double collision[5];         // a_i
   double above[4], below[3];   // if chapman is 0: eta_0 = sum above_i T^i / sum below_i T^i [Pa.s]

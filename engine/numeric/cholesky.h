@@ -11,10 +11,10 @@
 typedef struct SbCholesky SbCholesky;
 
 // Creates a solver for n >= 0 unknowns and analyses the pattern of A. Row i has its non-zero
-// entries in the columns column[start[i]] to column[start[i + 1] - 1]; start[n + 1], start[0] = 0.
-// Each row includes its diagonal, and the pattern is symmetric (both triangles). `start` and
-// `column` are borrowed until the solver is destroyed. Returns NULL if memory is short or the
-// pattern is invalid.
+// entries in the columns column[start[i]] to column[start[i + 1] - 1], in any order; start[n + 1],
+// start[0] = 0. Each row includes its diagonal, and the pattern is symmetric (both triangles).
+// `start` and `column` are borrowed until the solver is destroyed. Returns NULL if memory is short
+// or the pattern is invalid.
 SbCholesky *sb_cholesky_create(int n, const int *start, const int *column);
 
 // Frees the solver.

@@ -33,7 +33,7 @@ typedef enum {
   SB_SEARCH_FLAT,     // the gradient is 0: no variate changes g at the last point
   SB_SEARCH_FAR,      // no failure point within the distance SB_SEARCH_FARTHEST
   SB_SEARCH_KINK,     // the gradient is NaN at the last point
-  SB_SEARCH_NO_VALUE, // g is NaN at the last point (the median, or a later one)
+  SB_SEARCH_NO_VALUE, // g is NaN at the median
   SB_SEARCH_STALLED   // no step reduces the merit function, or 60 steps were not enough
 } SbSearchEnd;
 
@@ -64,12 +64,14 @@ SbStatus sb_failure_point(SbFailurePoint *out, double *u, size_t dimensions, SbL
 
 // Writes `samples` random points to u[samples][dimensions]. Points 0, 5, 10 ... are drawn around 0,
 // the other ones in turn around the points centre[centres][dimensions], each with unit variance. If
-// `centres` is 0, all points are drawn around 0. Equal seeds give equal points.
+// `centres` is 0, all points are drawn around 0, and `centre` may be NULL. Equal seeds give equal
+// points.
 void sb_sample_importance(double *u, size_t samples, size_t dimensions, const double *centre,
                           size_t centres, uint64_t seed);
 
-// Returns the weight of a point u[dimensions] of sb_sample_importance() with these centres: the
-// standard normal density divided by the sampling density, 0 to 5; 1 if `centres` is 0.
+// Returns the weight of a point u[dimensions] of sb_sample_importance() with the same
+// centre[centres][dimensions]: the standard normal density divided by the sampling density, 0 to 5.
+// If `centres` is 0 the weight is 1, and `centre` may be NULL.
 double sb_importance_weight(const double *u, size_t dimensions, const double *centre,
                             size_t centres);
 

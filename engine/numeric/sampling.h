@@ -34,6 +34,7 @@ typedef struct {
 } SbDistribution;
 
 // Returns the quantile: the value below which the fraction `p` of the probability is, 0 < p < 1.
+// For LEVELS it is level[i] with i = p count, rounded down.
 double sb_distribution_quantile(const SbDistribution *distribution, double p);
 
 // Returns the quantile at p = Phi(z), z a standard normal variate. Accurate in both tails, where

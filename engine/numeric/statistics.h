@@ -36,7 +36,7 @@ SbStatus sb_samples_summary(SbSummaryOfSamples *out, const double *value, size_t
                             size_t stride, SbReport *report);
 
 // Writes the 95 % interval of Clopper and Pearson for a probability (lower end, upper end), after
-// `seen` events in `count` trials.
+// `seen` events in `count` trials; 0 and 1 if `count` is 0.
 void sb_probability_interval(double interval[2], size_t seen, size_t count);
 
 // A sensitivity index, and its 95 % interval by bootstrap.

@@ -38,8 +38,8 @@ typedef struct {
 
 // Assembles and solves the steady state of `section`, which is borrowed and must not change until
 // sb_diffusion_destroy(). SB_ERROR_INPUT: an element has a negative or zero area, a triangle has an
-// invalid node number, or no node is wetted from inside or from outside. SB_ERROR_NOT_CONVERGED: a
-// part of the section has no wetted face (the matrix is singular).
+// invalid node number, no node has SB_FACE_INSIDE, or no node has SB_FACE_OUTSIDE.
+// SB_ERROR_NOT_CONVERGED: a part of the section has no wetted face (the matrix is singular).
 SbStatus sb_diffusion_create(SbDiffusion **out, const SbWettedMesh *section, SbReport *report);
 
 // Frees the object.
@@ -64,7 +64,8 @@ typedef struct {
   double flux_gap; // |flux_in - flux_out| divided by the conductance, finer mesh
 } SbDiffusionConverged;
 
-// Computes the steady results with their error. `section` is only read. Errors as for
-// sb_diffusion_create().
+// Computes the steady results with their error. `section` is only read; its fields `end` are set,
+// and sb_wetted_mesh_quarter() has not been called for it: this function calls it for copies.
+// Errors as for sb_diffusion_create().
 SbStatus sb_diffusion_converge(SbDiffusionConverged *out, const SbWettedMesh *section,
                                SbReport *report);

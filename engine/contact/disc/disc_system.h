@@ -67,12 +67,14 @@ typedef enum { SB_DISC_NORMAL, SB_DISC_HORIZONTAL, SB_DISC_HEIGHT } SbDiscAction
 double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVector m, double from,
                           double length, SbDiscAction action);
 
-// Solves the thesis' disc (disc_thesis.c). Called by sb_fit_solve(), which has checked `in` and
-// that the squeeze is positive, and has set the sizes in *out. Errors as for sb_fit_solve().
+// Solves the thesis' disc (disc_thesis.c). Called by sb_fit_disc() with a problem that
+// sb_fit_solve() has checked, if the squeeze is positive; the sizes in *out are set. Errors as for
+// sb_fit_solve().
 SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 
 // Returns the smooth step of the known pressure: 1 at tau = -1, 0 at tau = 1.
 double sb_disc_system_step(double tau);
 
-// Returns the displacement in +x at the right end of the horizontal diameter for the last solution.
+// Returns the displacement in +x at the right end of the horizontal diameter for the last solution,
+// which must be one without pressure.
 double sb_disc_system_bulge(const SbDiscSystem *system);

@@ -1,11 +1,11 @@
 // The seal ring in its groove: axisymmetric finite-strain finite elements with unilateral contact
 // and friction (public interface of the ring model).
 //
-// x is axial, with its origin at the centre of the free section; radii are measured from
-// the valve's axis. Forces are those of the full ring; with `plane_strain` they are per metre. A
-// ring that seals inwards (`inward`) has negative radii and radial displacements: the stem is its
-// bore. It has no floor; the groove walls clamp it, and the fluid of the higher pressure ends at
-// the wall of its side.
+// x is axial, with its origin at the centre of the free section; radii are measured from the
+// valve's axis. Forces are those of the full ring; with `plane_strain` they are per metre. A ring
+// that seals inwards (`inward`) has negative radii and radial displacements, except in SbRingFields
+// and SbRingSection: the stem is its bore. It has no floor; the groove walls clamp it, and the
+// fluid of the higher pressure ends at the wall of its side.
 //
 // Material: W = c1 (J^(-2/3) I1 - 3) + c2 (J^(-4/3) I2 - 3) + K/2 (J - 1)^2 with 2 (c1 + c2) = mu =
 // E/(2 (1 + nu)), K = E/(3 (1 - 2 nu)); c2 = 0 is the neo-Hookean energy. Surfaces are rigid and
@@ -166,8 +166,8 @@ void sb_ring_destroy(SbRing *ring);
 SbStatus sb_ring_step(SbRing *ring, const SbRingLoad *load, SbReport *report);
 
 // Creates the reflection at x = 0 of a ring without fluid pressure: the ring that slides in the
-// opposite direction. `law` is the data of its friction law, borrowed. SB_ERROR_NOT_CONVERGED: the
-// section is not symmetric, or the groove is drawn.
+// opposite direction. `law` is the data of its friction law, borrowed; NULL if the law has none.
+// SB_ERROR_NOT_CONVERGED: the section is not symmetric, or the groove is drawn.
 SbStatus sb_ring_mirror(SbRing **out, const SbRing *ring, const void *law, SbReport *report);
 
 // Predictor for solutions near a solved ring, by a coarse copy of it. It borrows the ring, which
@@ -183,10 +183,12 @@ void sb_ring_guide_destroy(SbRingGuide *guide);
 // Solves the coarse copy now, so that the first sb_ring_near() does not wait for it. Any thread.
 void sb_ring_guide_make(SbRingGuide *guide);
 
-// Solves another body or load from the state of `ring`, with the predictor `guide` on a mesh that
-// follows the contacts; if that fails, or without one (NULL), directly on a moved mesh. A ring that
-// slides steadily keeps its direction. Friction on floor and walls sees the difference of the two
-// states. `ring` is only read. SB_ERROR_NOT_CONVERGED: the difference is too large, or the ring
+// Solves another body or load from the state of `ring`, with the predictor `guide` of `ring` on a
+// mesh that follows the contacts; if that fails, or without one (NULL), directly on a moved mesh. A
+// ring that slides steadily keeps its direction. Friction on floor and walls sees the difference of
+// the two states. `ring` is only read. `options` must not be NULL; its element_size is ignored.
+// With a predictor, elements larger than those of `ring` are used if they suffice for
+// options->tolerance (0: never). SB_ERROR_NOT_CONVERGED: the difference is too large, or the ring
 // rolls or jams. Other errors as for sb_ring_create().
 SbStatus sb_ring_near(SbRing **out, const SbRing *ring, SbRingGuide *guide, const SbRingBody *body,
                       const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
@@ -205,9 +207,10 @@ SbStatus sb_ring_tangent_create(SbRingTangent **out, const SbRing *ring, const v
 void sb_ring_tangent_destroy(SbRingTangent *tangent);
 
 // Creates the linearised state of another body at another load with the same direction of sliding.
-// Its mesh follows its contacts. SbRingResult.fault reports how far it violates the active set. It
-// is not in equilibrium, so other functions must not solve from it. SB_ERROR_NOT_CONVERGED: there
-// is no such state.
+// Its mesh follows its contacts. `options` must not be NULL; its element_size is ignored.
+// SbRingResult.fault reports how far the state violates the active set. The state is not in
+// equilibrium, so other functions must not solve from it. SB_ERROR_NOT_CONVERGED: there is no such
+// state. Other errors as for sb_ring_create().
 SbStatus sb_ring_tangent_at(SbRing **out, SbRingTangent *tangent, const SbRingBody *body,
                             const SbRingLoad *load, const SbRingOptions *options, SbReport *report);
 
@@ -218,8 +221,8 @@ SbStatus sb_ring_tangent_solve(SbRing **out, SbRingTangent *tangent, const SbRin
                                const SbRingLoad *load, const SbRingOptions *options,
                                SbReport *report);
 
-// Creates a copy of the present state on another mesh, with options->element_size in all contacts,
-// in equilibrium. SB_ERROR_NOT_CONVERGED: no equilibrium was found on that mesh.
+// Creates a copy of the present state on another mesh, with options->element_size (> 0) in all
+// contacts, in equilibrium. SB_ERROR_NOT_CONVERGED: no equilibrium was found on that mesh.
 SbStatus sb_ring_copy(SbRing **out, const SbRing *ring, const SbRingOptions *options,
                       SbReport *report);
 
@@ -235,7 +238,8 @@ void sb_ring_result(const SbRing *ring, SbRingResult *out);
 
 // Writes the pressure of the bore contact to x[capacity] [m] and pressure[capacity] [Pa], from the
 // left to the right end of the contact; at the ends it equals the fluid's pressure. Returns the
-// number of points of the full profile (0 without contact); at most `capacity` are written.
+// number of points of the full profile (0 without contact); the first `capacity` of them are
+// written.
 int sb_ring_profile(const SbRing *ring, double *x, double *pressure, int capacity);
 
 // Returns sizes for SbRingFields: number of nodes, triangles, and outline points.
@@ -284,15 +288,17 @@ void sb_ring_section(const SbRing *ring, const SbRingSection *out);
 
 // Writes the bore contact's surface for film solvers (compliance.h) to *out: the half-plane with
 // the modulus of the squeezed rubber, a smooth part that is exact for the discrete ring, and the
-// gap whose dry contact has the present pressure, in a window of 1.4 contact widths. Loads are per
-// length of the bore's circumference. Linearised at the present state, frictionless on the bore.
-// SB_ERROR_INFEASIBLE: no contact, or the surface turns away within the window.
+// gap whose dry contact has the present pressure, in a window of 1.4 contact widths (1.24 or 1.14
+// if that fails). Loads are per length of the bore's circumference. Linearised at the present
+// state, frictionless on the bore. The state of `ring` does not change, but its factors and work
+// memory do. SB_ERROR_INFEASIBLE: no contact, or the surface is too steep or turns away within the
+// window. SB_ERROR_NOT_CONVERGED: no smooth gap gives the contact pressure.
 SbStatus sb_ring_surface(SbRing *ring, SbSurfaceCompliance *out, SbReport *report);
 
 // Solves one fit to the tolerance of `options` (NULL: defaults): on a coarse and on finer meshes
 // with nodes at the contact edges, from whose differences the errors of load, peak and width
-// follow. element_size is only used for the path of a sliding ring. `out` may be NULL; `result` is
-// always filled. Errors as for sb_ring_create().
+// follow. element_size is only used for the path of a sliding ring. `out` may be NULL: then the
+// ring is freed. `result` is filled in both cases. Errors as for sb_ring_create().
 // Warnings: "no-contact" (load 0; also if the ring under pressure has no contact without it),
 // "surface-creases" (sb_ring_crease()), "section-rolled".
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,

@@ -86,7 +86,9 @@ typedef struct {
   int unsteady;       // contact pair that changed last; -1: none in this solve
 } SbRingContact;
 
-// Creates the contact of a model, without contact pairs in contact. `fem` is borrowed.
+// Creates the contact of a model, without contact pairs in contact. `fem` is borrowed. The caller
+// then sets `stress`, `lobes` and `force_scale` (initially 0, false, 1), and is.now to the load in
+// the units of the element solver.
 SbStatus sb_ring_contact_create(SbRingContact **out, SbRingFem *fem, SbReport *report);
 
 // Frees the contact.
@@ -195,7 +197,8 @@ double sb_ring_fluid_at(const SbRingContact *contact, int i, const double n[2]);
 // Returns whether loop node i sticks on a surface by Coulomb friction.
 bool sb_ring_contact_sticks(const SbRingContact *contact, int i, SbRingSurface surface);
 
-// Sets every node on or inside a surface to `held`.
+// Sets `held` of every contact pair to whether the node is on or inside the surface, and its slip
+// state to 0.
 void sb_ring_contact_detect(SbRingContact *contact);
 
 // Resets the counters of slip changes before a solve.
@@ -206,11 +209,13 @@ void sb_ring_contact_begin(SbRingContact *contact);
 double sb_ring_contact_apply(SbRingContact *contact);
 
 // Returns the largest factor, at most 1, by which the correction fem->du may be applied: nodes in
-// contact with curved surfaces must not move too far for the linear model. Call it after a solve.
+// contact with curved surfaces must not move too far for the linear model. Call it after
+// sb_ring_fem_solve().
 double sb_ring_contact_limit(const SbRingContact *contact);
 
-// Updates contact pairs and slip states from the reactions of the linear model, after a solve and
-// step. Returns the number of changes. With `single` only the worst pair of each kind changes.
+// Updates contact pairs and slip states from the reactions of the linear model, after
+// sb_ring_fem_solve() and sb_ring_fem_advance(). Returns the number of changes. With `single` only
+// the worst pair of each kind changes.
 int sb_ring_contact_update(SbRingContact *contact, bool single);
 
 // Computes the forces of all contact pairs from the residual, at convergence.
@@ -225,7 +230,7 @@ double sb_ring_contact_fault(const SbRingContact *contact);
 // after failed attempts to continue from it.
 void sb_ring_contact_settle(SbRingContact *contact);
 
-// Saves the full state, with displacements, in the place SB_RING_START or SB_RING_BEFORE.
+// Saves the full state (`is` and the displacements) in the place SB_RING_START or SB_RING_BEFORE.
 void sb_ring_save(SbRingContact *contact, int place);
 
 // Restores the full state from the place SB_RING_START or SB_RING_BEFORE.

@@ -6,6 +6,7 @@
 #include "engine/contact/ring/ring_profile.h"
 
 // A smooth bend of a line: the slope changes by `turn` over `length` around the position `at` [m].
+// Its contribution to the height is turn x sb_groove_ramp(position - at + length/2, length).
 typedef struct {
   double at, turn, length;
 } SbGrooveBend;
@@ -22,8 +23,9 @@ typedef struct {
 
 // A drawn groove [m]. [0] is the left side, [1] the right one. Floor line: height above the lowest
 // point of the floor against the axial distance from the narrowest position of the wall (< 0 inside
-// the groove, > 0 behind the wall); constant far from the wall. Wall line: recess of the wall
-// behind its narrowest position against the height above the lowest point of the floor.
+// the groove, > 0 behind the wall); constant far from the wall. The floor's height at a point is
+// the sum of both floor lines there. Wall line: recess of the wall behind its narrowest position
+// against the height above the lowest point of the floor.
 typedef struct {
   // Distance of the walls at the narrowest position; height of the edges above the floor.
   double width, depth;
@@ -34,12 +36,14 @@ typedef struct {
 // Fraction of the depth over which corners are rounded.
 #define SB_GROOVE_ROUNDING 0.04
 
-// Converts an outline from one edge to the other, points[count]: z axial, r radial from any axis
-// [m], bulge counter-clockwise in (z, r) (SbSealPoint), into a groove. The floor is what inclines
-// by at most 70 degrees around its lowest point. Walls are steeper, and higher up incline by at
-// most 60 degrees from the radial direction; flatter parts at the edges are omitted. Arcs are
-// divided into chords of 7.5 degrees (error 0.2 % of the radius). SB_ERROR_INPUT: no such floor or
-// wall, or the surfaces deviate by more than 2 % of width or depth from a point.
+// Converts an outline from one edge to the other, in either direction, into a groove.
+// points[count]: z axial, r radial from any axis [m], bulge counter-clockwise in (z, r)
+// (SbSealPoint; that of the last point is ignored). The floor is what inclines by at most 70
+// degrees around its lowest point. Walls are steeper, and higher up incline by at most 60 degrees
+// from the radial direction; flatter parts at the edges are omitted. Arcs are divided into chords
+// of 7.5 degrees (error 0.2 % of the radius). SB_ERROR_INPUT: fewer than 3 points, more than 512
+// with those of the chords, no such floor or wall, too many bends, or the surfaces deviate by more
+// than 2 % of width or depth from a point.
 SbStatus sb_groove_draw(SbGrooveDrawing *out, const SbSealPoint *points, int count,
                         SbReport *report);
 

@@ -17,8 +17,8 @@ enum { SB_RING_BLOCK = 4 };
 typedef struct SbRingFactor SbRingFactor;
 
 // Creates a solver for `nodes` nodes. Block row i has blocks in the columns column[start[i]] to
-// column[start[i + 1] - 1], including the diagonal; the pattern is symmetric and is copied. NULL:
-// no memory.
+// column[start[i + 1] - 1], in any order, including the diagonal; start[nodes + 1], start[0] = 0.
+// The pattern is symmetric and is copied. NULL: no memory.
 SbRingFactor *sb_ring_factor_create(int nodes, const int *start, const int *column);
 
 // Frees the solver.

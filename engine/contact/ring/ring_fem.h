@@ -85,7 +85,8 @@ static inline void sb_ring_fem_place(const SbRingFem *fem, int node, double x[2]
   x[1] = fem->mesh->x[2 * node + 1] + fem->u[2 * node + 1];
 }
 
-// Creates a model with zero displacement; `mesh` is borrowed.
+// Creates a model with zero displacement, without conditions, springs, damping and viscosity.
+// `mesh` is borrowed; `around` is that of SbRingFem.
 SbStatus sb_ring_fem_create(SbRingFem **out, const SbRingMesh *mesh, SbRingMaterial material,
                             double around, SbReport *report);
 
@@ -115,8 +116,8 @@ SbStatus sb_ring_fem_solve(SbRingFem *fem, SbReport *report);
 // (-residual and gaps), and factorises. SB_ERROR_NOT_CONVERGED: singular.
 SbStatus sb_ring_fem_factor(SbRingFem *fem, SbReport *report);
 
-// Second part: solves for fem->du with the present right-hand side. May be repeated with other
-// ones.
+// Second part: solves for fem->du with the right-hand side fem->rhs [nodes][2]. The caller may
+// change `rhs` and call it again. SB_ERROR_NOT_CONVERGED: the remaining residual is too large.
 SbStatus sb_ring_fem_apply_factor(SbRingFem *fem, SbReport *report);
 
 // Writes the reaction R + K du of a node with a condition after the step fem->du, by the linear
@@ -130,7 +131,8 @@ void sb_ring_fem_advance(SbRingFem *fem, double step);
 double sb_ring_fem_free_residual(const SbRingFem *fem);
 
 // Saves the state in `place`: 0 (Newton's method), 1 (SB_RING_START: start of a load step) or 2
-// (SB_RING_BEFORE: before an attempt of several steps).
+// (SB_RING_BEFORE: before an attempt of several steps). saved[place] begins with the saved
+// displacements [nodes][2].
 void sb_ring_fem_save(SbRingFem *fem, int place);
 
 // Restores the state from one of these places.

@@ -53,8 +53,9 @@ typedef struct {
   double vertex[SB_RING_VERTICES_MAX];
 } SbRingMeshPlan;
 
-// Creates a mesh by `plan`. SB_ERROR_MEMORY: also if it needs too many nodes. SB_ERROR_INPUT:
-// layers or size_max. SB_ERROR_NOT_CONVERGED: no mesh of good triangles was found.
+// Creates a mesh by `plan`. SB_ERROR_MEMORY: also if a disc needs too many nodes. SB_ERROR_INPUT:
+// `layers` or `size_max` of a disc is out of range. SB_ERROR_NOT_CONVERGED: no mesh of good
+// triangles was found.
 SbStatus sb_ring_mesh_create(SbRingMesh **out, const SbRingMeshPlan *plan, SbReport *report);
 
 // Creates the mesh of an outline (ring_triangles.c). Called by sb_ring_mesh_create().

@@ -1,6 +1,8 @@
 // The ring object and the functions shared by its files. Private to engine/contact/ring. Lengths,
 // stresses and forces are in the units of the element solver (SbRing.length, stress and force)
-// unless a unit is stated. A boundary side and its number are those of ring_contact.h.
+// unless a unit is stated. A load that is passed with a body, and SbRing.load, are in SI units. A
+// load that is passed without a body, and contact->is.now, are in those of the element solver
+// (sb_ring_load_in()). A boundary side and its number are those of ring_contact.h.
 //
 // Order for a new ring: sb_ring_check(), sb_ring_set_body(), then a mesh with elements and contact
 // (sb_ring_build(), or ring->mesh and sb_ring_build_on_mesh()), then sb_ring_fit_and_press() or
@@ -119,7 +121,8 @@ bool sb_ring_is_circle(const SbRing *ring);
 // Returns a mesh plan without zones: element size `size_max`, and `size` at the surface.
 SbRingMeshPlan sb_ring_empty_plan(const SbRing *ring, double size_max, double size);
 
-// Builds mesh, elements and contact of a ring by a plan.
+// Builds mesh, elements and contact of a ring without a mesh by a plan. What was built before an
+// error remains; sb_ring_drop() frees it.
 SbStatus sb_ring_build(SbRing *ring, const SbRingMeshPlan *plan, SbReport *report);
 
 // Frees mesh, elements and contact of a ring and sets them to NULL.
@@ -129,8 +132,8 @@ void sb_ring_drop(SbRing *ring);
 // inverted elements, else SB_OK.
 SbStatus sb_ring_check_apart(const SbRing *ring, SbReport *report);
 
-// Replaces the mesh by one fitted to the present contacts and solves on it, with other sizes
-// (sb_ring_try) if that fails. After an error the state before remains.
+// Replaces the mesh by one fitted to the present contacts and solves on it; if that fails and the
+// bore slides, with other sizes (sb_ring_try). After an error the state before remains.
 SbStatus sb_ring_refit(SbRing *ring, double element_size, SbReport *report);
 
 // Does the same as sb_ring_refit(), but with one element size only.
@@ -149,7 +152,8 @@ void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *lo
 // Creates a ring with the body, load and options of another one, without a mesh.
 SbStatus sb_ring_create_like(SbRing **out, const SbRing *ring, SbReport *report);
 
-// Builds elements and contact on the mesh that was set.
+// Builds elements and contact on ring->mesh, which the caller has set. What was built before an
+// error remains; sb_ring_drop() frees it.
 SbStatus sb_ring_build_on_mesh(SbRing *ring, SbReport *report);
 
 // Returns whether the ends of the bore contact have left the small elements of the mesh: moved by
@@ -227,12 +231,14 @@ typedef enum {
   SB_RING_SEALED  // as FOLLOW, while there is contact with the bore
 } SbRingPath;
 
-// Solves for equilibrium at contact->is.now by Newton's method with an active set. After an error
-// the state is the last iterate. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
+// Solves for equilibrium at contact->is.now by Newton's method with an active set. Friction
+// measures the motion from the state SB_RING_START, which the caller has saved. After an error the
+// state is the last iterate. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report);
 
-// Solves at the present load by sb_ring_newton(). SB_ERROR_NOT_CONVERGED also if the section has
-// rotated too far for one step, or if a SEALED path loses the bore. After an error the state of
+// Solves by sb_ring_newton(). The caller has saved the state by sb_ring_save() as SB_RING_START,
+// then set contact->is.now to the new load. SB_ERROR_NOT_CONVERGED also if the section has rotated
+// too far for one step, or if a SEALED path loses the bore. After an error the state of
 // SB_RING_START is restored.
 SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report);
 
@@ -253,7 +259,8 @@ SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report)
 
 // Returns the rotation of the section since it was free [rad] (the equivalent value nearest to the
 // last known one). If `du` is not NULL, writes its change by the displacement du[nodes][2], to
-// first order, to *change. Writes the mean axial position to *place (NULL: not wanted).
+// first order, to *change; without `du`, `change` may be NULL. Writes the mean axial position to
+// *place (NULL: not wanted).
 double sb_ring_turn(const SbRingContact *contact, const double *du, double *change, double *place);
 
 // SbRingContact.onset on an easy path, and on one with friction on floor and walls.
@@ -262,7 +269,9 @@ double sb_ring_turn(const SbRingContact *contact, const double *du, double *chan
 
 // Follows steady sliding from zero friction on the bore to friction_bore = `aim`, or past the
 // largest one that the ring can carry. Then `state` (rolls or jams) and `share_limit` are set and
-// the state is that of the largest friction. SB_ERROR_NOT_CONVERGED: neither was reached.
+// the state is that of the largest friction. Before the call the ring is in equilibrium under the
+// fluid, and contact->is.now has bore_slides and the full friction but friction_bore = 0.
+// SB_ERROR_NOT_CONVERGED: neither was reached.
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report);
 
 // Frees ring->best; with `take` the ring returns to that state.

@@ -48,7 +48,8 @@ typedef struct {
 // adhesion w [J/m2] >= 0.
 void sb_asperity_init(SbAsperity *out, double radius, double modulus, double work);
 
-// Adds a warning if Tabor's parameter is between SB_TABOR_DMT and SB_TABOR_JKR.
+// Adds the warning "adhesion-transition" if Tabor's parameter is between SB_TABOR_DMT and
+// SB_TABOR_JKR.
 void sb_asperity_warn(SbWarnings *warnings, const SbAsperity *asperity);
 
 // State at a contact radius. The load on the asperity is elastic - pull.

@@ -54,6 +54,7 @@ SbStatus sb_height_figures(SbHeightFigures *out, const SbHeights *heights, SbRep
 // sqrt(m0), that of all heights, which greenwood_tripp.h and persson.h require.
 SbAsperityFigures sb_asperities_of_moments(const double moment[3], bool of_summits);
 
-// Divides a surface into m by n parts (rows by columns) and returns the part (i, j), i = 0 to m -
-// 1, j = 0 to n - 1. Its `z` points into heights->z: changes appear in both.
+// Divides a surface into m by n parts (rows by columns), whose sizes differ by at most one row and
+// column, and returns the part (i, j), i = 0 to m - 1, j = 0 to n - 1. Its `z` points into
+// heights->z, which must remain valid: changes appear in both.
 SbHeights sb_heights_part(const SbHeights *heights, size_t i, size_t m, size_t j, size_t n);

@@ -48,8 +48,8 @@ typedef struct {
   const char *roll_off_reason; // why roll_off is NaN, static; NULL: the roll-off was found
 } SbHeightSpectrum;
 
-// Computes the spectrum. Call sb_height_spectrum_finish() also after an error. SB_ERROR_INFEASIBLE:
-// too few heights are measured.
+// Computes the spectrum of heights whose form was removed (sb_heights_prepare()). Call
+// sb_height_spectrum_finish() also after an error. SB_ERROR_MEMORY is its only error.
 SbStatus sb_height_spectrum(SbHeightSpectrum *out, const SbHeights *heights, SbReport *report);
 
 // Frees spectrum->ring and sets all fields to zero.

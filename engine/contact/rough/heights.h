@@ -69,22 +69,25 @@ typedef struct {
   size_t filled;       // number of missing points that got a value
   double form_share;   // fraction of the variance about the mean that the form explains
   double curved_share; // fraction of the variance about the plane that a quadratic form explains
-  double form_radius;  // radius of the cylinder, > 0 if convex [m]; NaN for other forms
+  double form_radius;  // radius of the cylinder, > 0 convex, < 0 concave [m]; NaN: other forms
 } SbHeightsReport;
 
 // Prepares the heights in place. SB_ERROR_RANGE: grid too small, too large or without spacing, a
-// height beyond 1000 km, or a cut-off out of range. SB_ERROR_INFEASIBLE: less than a quarter of the
+// height beyond 1000 km, an `outliers` that is not 0 to 1e6, a cut-off that is not 0 to 1 km, or a
+// short cut-off that is not below the long one. SB_ERROR_INFEASIBLE: less than a quarter of the
 // points is measured, or nothing remains. SB_ERROR_NOT_CONVERGED: no cylinder fits. After an error
 // the heights are partly processed.
 SbStatus sb_heights_prepare(SbHeightsReport *out, SbHeights *heights,
                             const SbHeightsChoices *choices, SbReport *report);
 
-// Subtracts the least-squares form. *radius is SbHeightsReport.form_radius. SB_ERROR_INFEASIBLE:
-// too few points determine the form. SB_ERROR_NOT_CONVERGED: no cylinder fits.
+// Subtracts the least-squares form in place. *radius is SbHeightsReport.form_radius.
+// SB_ERROR_INFEASIBLE: too few points determine the form. SB_ERROR_NOT_CONVERGED: no cylinder fits.
+// After an error the heights are unchanged.
 SbStatus sb_heights_level(double *radius, SbHeights *heights, SbForm form, SbReport *report);
 
-// Applies a Gaussian filter of wavelength `cutoff` [m] in place: with `keep` the heights become the
-// filtered surface (waves longer than `cutoff`), else the remainder (shorter waves).
+// Applies a Gaussian filter of wavelength `cutoff` > 0 [m] in place: with `keep` the heights become
+// the filtered surface (waves longer than `cutoff`), else the remainder (shorter waves). Missing
+// points remain missing.
 SbStatus sb_heights_filter(SbHeights *heights, double cutoff, bool keep, SbReport *report);
 
 // Replaces missing points by the mean of the nearest measured ones in their row and column,

@@ -21,8 +21,8 @@
 // Fraction of real contact at which the first channel opens.
 #define SB_PERCOLATION_THRESHOLD 0.42
 
-// Height of the constriction divided by the rms roughness above which Gaussian surfaces have no
-// contact: an open path.
+// Height of the constriction divided by the rms roughness from which on Gaussian surfaces have no
+// contact: an open path. sb_percolation_solve() does not compare with it; its caller does.
 #define SB_PERCOLATION_OPEN_GAP 3.0
 
 // A contact.

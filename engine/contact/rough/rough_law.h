@@ -82,7 +82,8 @@ typedef struct {
 
 // Computes the tables (1 ms; 10 ms with adhering tips). SB_ERROR_RANGE: a parameter is not
 // positive, or tips stretch too far. SB_ERROR_INFEASIBLE: no random surface has this product
-// (PERSSON). SB_ERROR_INPUT: SB_ROUGH_NONE, or `work` with a model other than GREENWOOD_TRIPP.
+// (PERSSON). SB_ERROR_INPUT: SB_ROUGH_NONE, `work` < 0, or `work` > 0 with another model than
+// GREENWOOD_TRIPP.
 SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbReport *report);
 
 // Returns whether all parameters of two surfaces are equal.
@@ -163,5 +164,5 @@ const SbRoughKind *sb_rough_kind(SbRoughModel model);
 // never NULL.
 const char *sb_rough_model_name(SbRoughModel model);
 
-// Finds the model with this name. Returns false if there is none.
+// Finds the model with this name. Returns false if there is none; *out is unchanged then.
 SB_CHECKED bool sb_rough_model_from_name(SbRoughModel *out, const char *name);
