@@ -106,7 +106,7 @@ double sb_dry_contact_pressure(const SbDryContact *dry, double x);
 // Returns the gap [m] at x; 0 in the contact. `c` is the surface that was solved.
 double sb_dry_contact_gap(const SbDryContact *dry, const SbSurfaceCompliance *c, double x);
 
-// Sets dry->edge_left and edge_right from left, right, the ambient pressures and a[count].
+// Sets dry->edge_left and edge_right from the ambient pressures and a[count].
 void sb_dry_contact_edges(SbDryContact *dry);
 
 // Replaces c->gap and c->beyond by those of the surface whose dry contact has the given pressure:

@@ -55,7 +55,7 @@ typedef enum {
 typedef struct {
   const char *name; // of the choice of models.fit: "disc-thesis"
   bool section;     // solves the section's deformation: any profile, groove walls, friction
-  bool body;        // gives the surface of the fitted body, on which films are solved
+  bool body;        // its pressure is that of an elastic body, on which films can be solved
   bool points;      // computes the pressure at points, within a tolerance; else by a formula
   bool fluid;       // its load includes the fluid's pressure difference
 } SbFitKind;
@@ -102,7 +102,8 @@ typedef struct {
   double wall_draft, groove_corner, groove_chamfer;
   double land_diameter; // ring model only, with groove_chamfer: diameter of the stem next to the
                         // groove [m]
-  // Ring model only: drawn groove instead of those, borrowed; NULL: none.
+  // Ring model only: drawn groove instead of wall_draft, groove_corner and groove_chamfer,
+  // borrowed; NULL: none.
   const SbGrooveDrawing *groove;
   // Closed forms only: they squeeze section_diameter_fitted instead of the free section, as the
   // discs always do.
@@ -112,7 +113,8 @@ typedef struct {
   double tolerance; // relative error of load, peak and width; 0: 1e-3 (closed forms ignore it)
   // Ring model only: a flat gasket, clamped between plates at the distance gland_width with
   // wall_friction, on a stem of bore_diameter. Its free bore is inner_diameter, its thickness
-  // profile.axial_height, its radial extent section_diameter. radial_space is not used.
+  // profile.axial_height (profile.kind is SB_SEAL_PROFILE_RECTANGLE), its radial extent
+  // section_diameter. radial_space is not used.
   bool gasket;
   // Ring model only: the bore slides steadily over the ring with the friction coefficient |drag|.
   // drag > 0 drags the ring towards the wall onto which the fluid presses it (the right one without
@@ -153,7 +155,7 @@ int sb_fit_variant_find(SbFitModel model, const char *name);
 // Capacity of a pressure profile.
 enum { SB_FIT_PROFILE_MAX = 512 };
 
-// Result; holds no pointers (30 kB).
+// Result; owns no memory, may be copied (40 kB).
 typedef struct {
   SbFitModel model;
   int variant;
@@ -202,8 +204,8 @@ typedef struct {
   size_t profile_count;
   double profile_x[SB_FIT_PROFILE_MAX]; // [m]
   double profile_p[SB_FIT_PROFILE_MAX]; // [Pa]
-  // Surface of the fitted body for film solvers; modes 0 if there is none. The disc always has it,
-  // the ring if `surface_wanted`.
+  // Surface of the fitted body for film solvers: of the ring model, if `surface_wanted` was set and
+  // the surface was found. Else modes is 0; that of SB_FIT_DISC is sb_compliance_disc().
   SbSurfaceCompliance surface;
 } SbFit;
 
@@ -218,7 +220,7 @@ typedef struct {
 // SB_ERROR_RANGE, SB_ERROR_INPUT: a value is out of range; the report has its input
 // (SB_CONTACT_IN_... of inputs.h).
 // SB_ERROR_INFEASIBLE: the groove floor has no diameter, or the model has no solution.
-// SB_ERROR_NOT_CONVERGED: solver.converged is false; only the sizes are set.
+// SB_ERROR_NOT_CONVERGED: solver.converged is false; only the sizes are defined.
 // SB_ERROR_CANCELLED.
 // A ring without contact is a valid result: load 0 and the warning "no-contact".
 SbStatus sb_fit_solve(SbFit *out, const SbFitProblem *problem, SbReport *report);

@@ -61,8 +61,8 @@ typedef struct {
   double land_left, land_right; // x of the ends of the bore's land [m]; +-INFINITY: none
   double chamfer_angle;         // angle at which the bore opens beyond an end of the land [rad]
   double edge_length;           // axial length of the transition to the chamfer [m]
-  double pressure_left;         // of the fluid left of the contacts with bore and floor [Pa]
-  double pressure_right;        // of the fluid on their right [Pa]
+  double pressure_left;         // of the fluid left of the contacts with bore and floor [Pa], >= 0
+  double pressure_right;        // of the fluid right of these contacts [Pa], >= 0
   double bore_position;         // x of a material point of the bore [m]; with bore_slides 0 its
                                 // changes drag the ring by friction
   double friction_bore;         // factor of the bore's law, or Coulomb coefficient, 0 to 2
@@ -113,7 +113,7 @@ typedef enum {
 // Returns the name of a state ("slides", "rolls", "jams", "no-contact"); static.
 const char *sb_ring_state_name(SbRingState state);
 
-// Results of the present state.
+// Results of the present state. Without contact with the bore, the values of this contact are 0.
 typedef struct {
   SbRingState state;
   // Rotation of the section since it was free [rad]; > 0 as a bore moving to +x drives it.

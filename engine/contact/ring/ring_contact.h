@@ -157,7 +157,8 @@ double sb_ring_fold_apply(SbRingContact *contact);
 double sb_ring_crease(const SbRingContact *contact);
 
 // Adds the fluid pressure to residual and tangent of contact->fem (called by
-// sb_ring_contact_apply()); recomputes `closed`, `wet`, `weight`, `share`, `pressed`, `fluid`.
+// sb_ring_contact_apply()); recomputes is.crest (unless `settled`), `closed`, `wet`, `weight`,
+// `share`, `pressed`, `fluid`.
 void sb_ring_contact_load_fluid(SbRingContact *contact);
 
 // Returns whether the right fluid is at a boundary side, according to `crest`.
@@ -218,7 +219,8 @@ double sb_ring_contact_limit(const SbRingContact *contact);
 // the worst pair of each kind changes.
 int sb_ring_contact_update(SbRingContact *contact, bool single);
 
-// Computes the forces of all contact pairs from the residual, at convergence.
+// Computes the forces of all contact pairs from the residual, at convergence. Call it once after
+// sb_ring_contact_apply(): it moves `pressed` from `share` to `fluid`.
 void sb_ring_contact_forces(SbRingContact *contact);
 
 // Returns the sum of forces by which a state violates its active set: tension of nodes in contact,
@@ -227,7 +229,7 @@ void sb_ring_contact_forces(SbRingContact *contact);
 double sb_ring_contact_fault(const SbRingContact *contact);
 
 // Assembles a state in equilibrium again, so that conditions and forces are those of the state,
-// after failed attempts to continue from it.
+// after failed attempts to continue from it. Saves it as SB_RING_START.
 void sb_ring_contact_settle(SbRingContact *contact);
 
 // Saves the full state (`is` and the displacements) in the place SB_RING_START or SB_RING_BEFORE.
