@@ -184,15 +184,16 @@ void sb_scene_callbacks(SbScene *scene, void (*progress)(void *data, double frac
 
 // Computes the scene's cycle: figures, frames and profiles, which replace those of the last run. It
 // takes milliseconds with closed forms, and a second or more with solved rings. After
-// _NOT_CONVERGED, _INFEASIBLE and _CANCELLED the completed part can be read.
+// _NOT_CONVERGED, _INFEASIBLE and _CANCELLED the completed part can be read. _INPUT: the values
+// describe no valid valve, or the scene's file is faulty; nothing is computed.
 SbSceneStatus sb_scene_run(SbScene *scene);
 
 // Writes the figure with the key `path` of the last run to *value, in SI; NaN if it was not
 // computed. _INPUT: unknown path, or no run yet.
 SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value);
 
-// Returns why a figure of the last run is NaN, one sentence; NULL if it has a value, or if the path
-// is unknown.
+// Returns why a figure of the last run is NaN, one sentence, also before the first run; NULL if it
+// has a value, or if the path is unknown.
 const char *sb_scene_reason(const SbScene *scene, const char *path);
 
 // Returns the sentence of warning number `index` (from 0) of the last run; NULL after the last one.

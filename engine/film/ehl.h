@@ -151,6 +151,9 @@ typedef struct {
   double couette, poiseuille, cavity;
   double real_area, asperity_load, central_share; // integrals of share and p_a; share at the axis
   double solid_load;                              // integral of p_a - p_v
+  // load_error: residual of the load divided by pi/2. flux_error of smooth rows: the largest error
+  // of the flux film divided by the larger one of gap and film_flux; of rough rows: the largest
+  // residual of the film pressure's increase from node to node in the full film.
   double load_error, flux_error;
   // Relative changes due to the rounding of the deflections (rough rows): the larger one of
   // film_min and film_central; the sum of those of real_area and asperity_load.
@@ -226,7 +229,8 @@ struct SbFilmSolver {
   } last;
 };
 
-// Initialises a solver: all zero, except the matrices and vectors, which are left uninitialised.
+// Initialises a solver: tables, `now`, and each solution's `solver` and mesh.tables are set, all
+// else is zero. Matrices, and elements and operators of the meshes, are left uninitialised.
 void sb_ehl_init(SbFilmSolver *solver);
 
 // Returns the solution that is not the last one.
@@ -271,7 +275,8 @@ SB_CHECKED bool sb_ehl_layers_mesh(SbEhlSolution *s);
 // Sets the initial guess of smooth rows on the mesh of `s`.
 void sb_ehl_layers_guess(SbEhlSolution *s);
 
-// Returns the X at which the film re-forms, by Reynolds' equation on the dry gap.
+// Returns the X at which the film re-forms, by Reynolds' equation on the dry gap. Requires
+// layers->outlet > 0.
 double sb_ehl_layers_reform(const SbEhlLayers *layers);
 
 // Solves for s->state by Newton's method. The present state is the initial guess; its `gap` need
@@ -282,9 +287,10 @@ SbStatus sb_ehl_newton(SbEhlSolution *s);
 // singular.
 SbStatus sb_ehl_factor(SbEhlSolution *s);
 
-// Solves the case `c` on the mesh of the base, with its factors for SB_FILM_BESIDE, as the solver's
-// last solution; the base is not changed. SB_ERROR_NOT_CONVERGED: the cases differ too much or in
-// kind.
+// Solves the complete case `c` on the mesh of the base (base.solved must be true) as the solver's
+// last solution; the base is not changed. `place`: SB_FILM_NEAR or SB_FILM_BESIDE; only rough rows
+// with SB_FILM_NEAR compute their own factors, all others use those of the base.
+// SB_ERROR_NOT_CONVERGED: the cases differ too much or in kind. SB_ERROR_CANCELLED.
 SbStatus sb_ehl_from_base(SbFilmSolver *solver, const SbEhlCase *c, SbFilmPlace place);
 
 // Returns the residual at which Newton's method of smooth rows ends: solver->tolerance, but not
@@ -318,12 +324,13 @@ void sb_ehl_change(double change[3], SbFilmSolver *solver, const SbEhlResults *f
                    const SbEhlResults *coarse, bool paired);
 
 // Returns the film that transports `flux` at the slope dP/dX = `slope` and the given pressure, by
-// Newton's method from `film`.
+// Newton's method from `film`; without convergence the last iterate.
 double sb_ehl_flat_film(const SbEhlCase *c, double flux, double film, double pressure,
                         double slope);
 
-// Writes the profile of a solution to `out` in SI with gauge pressures, in the flow frame, with the
-// number of points that wanted->profile_points requests. Does nothing if wanted->profile is NULL.
+// Writes the profile of a solution to `out`, which sb_film_begin() has prepared, in SI with gauge
+// pressures, in the flow frame, with about wanted->profile_points points (0: as many as accuracy
+// requires). Does nothing if wanted->profile is NULL.
 void sb_ehl_profile(SbFilm *out, const SbFilmProblem *wanted, const SbEhlSolution *s,
                     const SbFilmScale *scale);
 
@@ -340,19 +347,22 @@ SbStatus sb_ehl_start(SbFilmSolver *solver, const SbEhlCase *c, double supply);
 // SB_ERROR_RANGE: the mesh of rough rows does not fit. SB_ERROR_NOT_CONVERGED, SB_ERROR_CANCELLED.
 SbStatus sb_ehl_refine(SbFilmSolver *solver, int degree);
 
-// Warm start: solves `c` from the last solution with the same degree. After any error but
-// SB_ERROR_CANCELLED the caller makes a cold start.
+// Warm start: solves `c` from the last solution, which must exist (last.ready), with its degree.
+// After any error but SB_ERROR_CANCELLED the caller makes a cold start.
 SbStatus sb_ehl_follow(SbFilmSolver *solver, const SbEhlCase *c);
 
 // Sets *law to the rough law of the problem's surface: solver->law, borrowed until the next call.
 // Its tables are computed only if the surface has changed, and copied from problem->law if possible
-// (sb_rough_law_like()). The errors are those of sb_rough_law_init().
+// (sb_rough_law_like()). SB_ERROR_RANGE: a parameter of the surface is not positive, or adhering
+// tips stretch too far. SB_ERROR_INPUT: SB_ROUGH_NONE, or options that exclude each other.
+// SB_ERROR_INFEASIBLE: no surface has this gt_product.
 SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                           const SbFilmProblem *problem, SbReport *report);
 
 // Returns the fraction of the load that asperities carry, A/(A + F). Force balance W = F + A - V
-// with net load W, film pressure F, asperities A, adhesion V (integrals over x in one unit), so F =
-// W - `solid`, `solid` = A - V. If the integral F is negative, the fraction is 1.
+// with net load W = `load`, film pressure F, asperities A = `asperity`, adhesion V (integrals over
+// x in one unit), so F = W - `solid`, `solid` = A - V. If the integral F is negative, the fraction
+// is 1; if A is 0, it is 0.
 double sb_ehl_asperity_share(double asperity, double solid, double load);
 
 // Sets all fields of c->rough for solver->problem, with rough rows and no fronts; all other fields
@@ -381,8 +391,8 @@ bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s);
 // Does the same as sb_ehl_rough_fronts() for the film of a march.
 bool sb_ehl_march_fronts(SbEhlCase *c, const SbEhlMarch *march);
 
-// Integrates the rough film over the contact of a solution (sealed or not) into s->solver->march.
-// Returns false if no flow satisfies both end pressures.
+// Integrates the rough film over the contact of a solution of rough rows (sealed or not) into
+// s->solver->march. Returns false if no flow satisfies both end pressures.
 SB_CHECKED bool sb_ehl_march(const SbEhlSolution *s);
 
 // Sets the state of `s`, on any mesh, from s->solver->march: a flowing film, or with `sealed` a
@@ -405,6 +415,8 @@ double sb_ehl_rough_weights(double *weight, const SbEhlSolution *s, const SbEhlE
 // Solves the checked `problem` by the coupled solver: continuation or warm start, refinement until
 // the tolerance is met, results and error estimates in *out, in the flow frame and without the
 // profile. `scale` is that of sb_film_scale(), or of sb_film_scale_fitted() for a fitted body. *out
-// must have been prepared by sb_film_begin(). Errors as for sb_film_solve().
+// must have been prepared by sb_film_begin(). SB_ERROR_RANGE: the film is lost in rounding.
+// SB_ERROR_INFEASIBLE: the pressures allow no film. SB_ERROR_NOT_CONVERGED: *out is the best state
+// found. SB_ERROR_CANCELLED; errors of sb_ehl_rough_law().
 SbStatus sb_ehl_solve(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                       SbFilmSolver *solver, SbReport *report);

@@ -171,7 +171,8 @@ double sb_ehl_node(const SbEhlElement *e, int k);
 // Returns the nodal value of node k for which the pressure at sb_ehl_node() is `pressure`.
 double sb_ehl_nodal(const SbEhlElement *e, int k, double pressure);
 
-// Returns the element that contains X; a cavity belongs to the element after it.
+// Returns the number of the element that contains X, of the first or last one if X is outside the
+// mesh. A cavity belongs to the element after it.
 int sb_ehl_find(const SbEhlMesh *mesh, double X);
 
 // Returns the coordinate r of X in an element, X within the element.

@@ -132,7 +132,8 @@ struct SbFilmTransient {
 };
 
 // Builds mesh and kernel for initial gaps at rest up to `rest` and films that come to rest down to
-// `least`, both scaled, 0: none. The fields of `t` up to `solver` must be set.
+// `least`, both scaled, 0: none. The fields problem, scale, layers, coarseness and solver of `t`
+// must be set.
 void sb_transient_mesh(SbFilmTransient *t, double rest, double least);
 
 // Builds a new mesh in the core and transfers the states, if the transported film needs another
@@ -144,15 +145,16 @@ bool sb_transient_adapt(SbFilmTransient *t, double ahead);
 // mesh; the side nodes of both meshes are equal.
 void sb_transient_remap(SbFilmTransient *t, int nodes);
 
-// Returns whether height[count] contains a front: largest and smallest differ by more than
-// `factor`.
+// Returns whether height[count] contains a front: the largest value exceeds `factor` times the
+// smallest one.
 bool sb_transient_front(const double *height, int count, double factor);
 
 // Computes t->solid at the gaps of `s`, then Q = P + solid at each node; with `split` P = Q - solid
 // at full nodes.
 void sb_transient_solids(SbFilmTransient *t, SbTransientState *s, bool split);
 
-// Computes friction, asperity load and real area of the present state.
+// Computes friction, asperity load and share, and real area of the present state t->now, in the
+// units of SbFilmTransientResult; the other fields of *out are not changed.
 void sb_transient_friction(SbFilmTransientResult *out, const SbFilmTransient *t);
 
 // Writes the elastic gap due to Q at all nodes to out[nodes].

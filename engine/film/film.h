@@ -139,8 +139,11 @@ typedef struct {
   double error_film_flux;    // estimated error of film_flux
   double error_contact;      // estimated error of real area and asperity load; 0 if smooth
   double load_error;         // |integral of p - load|/load
-  double flux_error;         // largest |flux(x)/flux - 1| in the full film
-  double wall_s;             // elapsed time of the solve [s]
+  // Largest |flow(x) - flow| in the full film, divided by the larger one of flow and gap times
+  // speed/2; with asperities or adhesion the largest error of the film pressure between two nodes,
+  // divided by p_H.
+  double flux_error;
+  double wall_s; // elapsed time of the solve [s]
 } SbFilmSolverInfo;
 
 // Result. Owns nothing: the profile is in the buffer of the problem, so a copy is valid until that
@@ -242,10 +245,12 @@ void sb_film_problem_init(SbFilmProblem *problem);
 
 // Solves `problem` with its model. `memory` is used by the model reynolds; NULL: allocated for the
 // call. Warnings are in out->warnings. Errors:
-// SB_ERROR_RANGE: a field is outside sb_film_ranges(). SB_ERROR_INPUT: options that exclude each
-// other, a rough surface with a model other than reynolds, or an invalid table or body.
-// SB_ERROR_INFEASIBLE: the pressures open the contact, or the inlet is below the rupture pressure,
-// or starved while the outlet cavitates and re-forms. After these errors films and pressures are 0.
+// SB_ERROR_RANGE: a field is outside sb_film_ranges() or not positive where it must be, or the film
+// is so thin that it is lost in rounding. SB_ERROR_INPUT: options that exclude each other, a rough
+// surface with a model other than reynolds, or an invalid table or body. SB_ERROR_INFEASIBLE: the
+// pressures open the contact, the inlet is below the rupture pressure, or starved while the outlet
+// cavitates and re-forms, the fitted body has no single contact, or no surface has this gt_product.
+// After these errors films and pressures are 0.
 // SB_ERROR_NOT_CONVERGED: *out is the best state found (films 0 if there is none).
 // SB_ERROR_CANCELLED, SB_ERROR_MEMORY: *out must not be used.
 SbStatus sb_film_solve(SbFilm *out, const SbFilmProblem *problem, SbFilmSolver *memory,

@@ -24,8 +24,10 @@ double sb_film_law(const SbFilmLaw *law, double U, double W);
 // contacts, except the isoviscous-elastic one, which is our exact limit 3.00434 g_E^0.8
 // (usually 3.10).
 typedef struct {
-  double g_E, g_V;    // elasticity and viscosity parameters [1]
-  const char *regime; // "isoviscous-rigid", "piezoviscous-elastic", ...; static
+  double g_E, g_V; // elasticity and viscosity parameters [1]
+  // "isoviscous-rigid", "isoviscous-elastic", "piezoviscous-rigid" or "piezoviscous-elastic";
+  // static.
+  const char *regime;
 } SbChartPoint;
 
 // Returns the chart point of a contact. `load` per length [N/m], `entrainment` u/2 [m/s], `radius`

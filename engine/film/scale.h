@@ -14,9 +14,12 @@ typedef struct {
   double W;          // load/(E' R)
   double M;          // W/sqrt(2 U); 0 at zero speed
   double lambda;     // 3 pi^2 U/(4 W^2)
-  double inlet;      // pressure at the inlet minus the rupture pressure, divided by p_H
-  double outlet;     // pressure at the outlet minus the rupture pressure, divided by p_H
-  double kappa;      // slope factor of the dry pressure at the inlet edge, 1 - (inlet - outlet)/pi
+  // Pressures at inlet and outlet divided by p_H: above the rupture pressure in the model reynolds,
+  // else above ambient. At rest, smooth surfaces count from ambient, rough ones from the lower one
+  // of ambient and rupture pressure.
+  double inlet;
+  double outlet;
+  double kappa; // slope factor of the dry pressure at the inlet edge, 1 - (inlet - outlet)/pi
   double kappa_outlet; // slope factor at the outlet edge, 1 + (inlet - outlet)/pi
   // Contact of a fitted body, 0 on a half-plane: its middle divided by b in the flow frame;
   // deviation of its dry pressure from Hertz's, p_dry = ends + sqrt(1 - X^2) (1 + sum bow[k]
@@ -38,22 +41,26 @@ bool sb_film_rough(const SbFilmProblem *problem);
 // Returns the half-plane scales of a checked problem.
 SbFilmScale sb_film_scale(const SbFilmProblem *problem);
 
-// Solves the dry contact of problem->compliance into *dry and sets half-width, middle and edge
-// slopes of *scale: b is half its width, p_H = 2 w/(pi b), film = 4 p_H b/E'. SB_ERROR_INPUT: the
-// moduli of problem and body differ; else the errors of sb_dry_contact().
+// Solves the dry contact of problem->compliance (not NULL) into *dry and converts *scale, the
+// result of sb_film_scale(), to this contact: b is half of its width, p_H = 2 w/(pi b), film =
+// 4 p_H b/E'; all fields except U, W and M change. SB_ERROR_INPUT: the moduli of problem and body
+// differ, or the gap of the body is not convex. SB_ERROR_INFEASIBLE: the contact leaves the body's
+// window, needs tension or has two parts. SB_ERROR_NOT_CONVERGED.
 SbStatus sb_film_scale_fitted(SbFilmScale *scale, SbDryContact *dry, const SbFilmProblem *problem,
                               SbReport *report);
 
 // Adds to out[modes] the moments int p T_k dX (compliance.h, modes = body->compliance->modes) of
 // the ambient pressures outside a mesh from `begin` to `end` (X, from the axis), minus the moments
 // of the lower ambient pressure over the full window. Adds their derivatives with respect to the
-// axis position to slope[modes]. `inlet` and `outlet` are SbFilmScale.inlet and outlet.
+// axis position to slope[modes]. `inlet` and `outlet` are SbFilmScale.inlet and outlet. Requires a
+// fitted body, not a half-plane.
 void sb_film_ambient(double *out, double *slope, const SbFilmBody *body, double inlet,
                      double outlet, double begin, double end);
 
 // Returns the correction of the slope dH/dX of the gap: with it, unequal ambient pressures leave
 // the surface flat over the window of the body (compliance.h) instead of over |X| < 1. Add the
-// slope times X to the gap. `inlet` and `outlet` are SbFilmScale.inlet and outlet.
+// slope times X to the gap. `inlet` and `outlet` are SbFilmScale.inlet and outlet. Requires a
+// fitted body, not a half-plane.
 double sb_film_window_tilt(const SbFilmBody *body, double inlet, double outlet);
 
 // Fills *out with the dry contact of a fitted body at rest. *out must have been prepared by
@@ -99,19 +106,19 @@ void sb_film_mobility(double *m, double *m_film, double *m_pressure, const SbFil
 // pressure; 1/film for an isoviscous fluid.
 double sb_film_shear(const SbFilmFluid *fluid, double film, double pressure);
 
-// Solves a power law, the asymptotic or the Moes model in the flow frame. *out must have been
-// prepared by sb_film_begin().
+// Solves a power law, the asymptotic or the Moes model in the flow frame, at a speed other than 0.
+// *out must have been prepared by sb_film_begin(). Does not fail.
 SbStatus sb_film_solve_law(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                            SbReport *report);
 
-// Solves Blok's inverse film of problem->dry_pressure in the flow frame, after sb_film_begin().
-// SB_ERROR_INPUT: the table has fewer than 9 points or is not increasing. SB_ERROR_INFEASIBLE: the
-// dry pressure never rises, or is not smooth.
+// Solves Blok's inverse film of problem->dry_pressure in the flow frame, after sb_film_begin(), at
+// a speed other than 0. SB_ERROR_INPUT: the table has fewer than 9 points or is not increasing.
+// SB_ERROR_INFEASIBLE: the dry pressure never rises, or is not smooth.
 SbStatus sb_film_solve_inverse(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                                SbReport *report);
 
-// Solves the rigid wedge (wedge.h) in the flow frame, after sb_film_begin(). SB_ERROR_INFEASIBLE:
-// the outlet pressure drives the film back.
+// Solves the rigid wedge (wedge.h) in the flow frame, after sb_film_begin(), at a speed other than
+// 0. SB_ERROR_INFEASIBLE: the outlet pressure drives the film back.
 SbStatus sb_film_solve_rigid(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *scale,
                              SbReport *report);
 

@@ -2,11 +2,12 @@
 //
 //   dm/dt + d/dx (u m/2 - h^3/(12 eta) dp/dx) = 0,   int (p - ambient) dx = W = film.load
 //
-// with the gap h of film.h (half-plane and parabola, or the compliance of a fitted body). m = h
-// where the film is full and p > rupture pressure; m < h and p = rupture pressure in a cavity. Mass
-// is conserved (Jakobsson, Floberg and Olsson; Elrod, J. Lubrication Technology 103, 1981). The
-// fluid in a cavity moves at u/2, as in the full film. Liquid surrounds the contact beyond the ends
-// of the mesh. After a reversal, a thin layer that has left the contact returns as a starved inlet.
+// with the gap h of film.h (half-plane and parabola, or the compliance of a fitted body). A
+// positive speed u moves the wall to +x, from left to right. m = h where the film is full and p >
+// rupture pressure; m < h and p = rupture pressure in a cavity. Mass is conserved (Jakobsson,
+// Floberg and Olsson; Elrod, J. Lubrication Technology 103, 1981). The fluid in a cavity moves at
+// u/2, as in the full film. Liquid surrounds the contact beyond the ends of the mesh. After a
+// reversal, a thin layer that has left the contact returns as a starved inlet.
 //
 // An end of the mesh may be starved: gas is there, at whose pressure the film cavitates, and the
 // wall transports a layer l at its full speed, so m = 2 l.
@@ -51,8 +52,12 @@ typedef struct {
   double film_min;     // minimum film [m]
   double film_central; // at x = 0, or in the middle of a fitted body's contact [m]
   double half_width;   // of the dry contact [m]
-  double friction_couette, friction_poiseuille, friction_cavity, friction_boundary; // see SbFilm
-  double asperity_load, asperity_share, real_area;                                  // see SbFilm
+  // Friction on the wall as in SbFilm, positive if it resists motion to +x; the sum is the total
+  // [N/m].
+  double friction_couette, friction_poiseuille, friction_cavity, friction_boundary;
+  // Integral of the asperity pressure [N/m]; asperity_load divided by the load of film and
+  // asperities [1]; integral over x of the fraction of real contact area [m].
+  double asperity_load, asperity_share, real_area;
   double error_film_min, error_film_central; // relative estimates; NAN: the companion failed
   // Relative error of the history of the minimum film: film and passage through the contact are
   // both within it of the true ones (Levy's metric); NAN: the companion failed.
@@ -70,9 +75,10 @@ typedef struct SbFilmTransient SbFilmTransient;
 
 // Creates a film in its initial state; takes about 0.1 s. What problem->film borrows, and the data
 // of its callback, must stay valid until sb_film_transient_destroy(). Its profile is not used.
-// SB_ERROR_RANGE, SB_ERROR_INPUT: see sb_film_solve(), or an option that is refused.
-// SB_ERROR_INFEASIBLE: adhesion closes gaps at rest. SB_ERROR_NOT_CONVERGED: no initial film was
-// found. SB_ERROR_CANCELLED.
+// SB_ERROR_RANGE: a value is out of range, or M < 1. SB_ERROR_INPUT: an option that is refused,
+// options that exclude each other, or an invalid body. SB_ERROR_INFEASIBLE: adhesion closes gaps at
+// rest, or the steady film at speed_scale or at the start does not exist (sb_film_solve()).
+// SB_ERROR_NOT_CONVERGED: no initial film was found. SB_ERROR_CANCELLED.
 SbStatus sb_film_transient_create(SbFilmTransient **out, const SbFilmTransientProblem *problem,
                                   SbReport *report);
 

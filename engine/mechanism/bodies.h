@@ -203,9 +203,10 @@ typedef struct {
   int joint[SB_VALVE_JOINTS]; // by SB_VALVE_HOUSING_GROUND, ...: SbJointKind, or SB_JOINT_NONE
 } SbValveParts;
 
-// Creates the valve's bodies (thesis table 4.1) and joints; the axis is x, positive into the
-// canister, and all centres are on it. Their positions along the axis are our choice; they do not
-// affect axial loads. Errors as for sb_assembly_add() and sb_assembly_join().
+// Initialises *assembly and creates the valve's bodies (thesis table 4.1) and joints in it; the
+// axis is x, positive into the canister, and all centres are on it. Their positions along the axis
+// are our choice; they do not affect axial loads. Errors as for sb_assembly_add() and
+// sb_assembly_join().
 SbStatus sb_assembly_valve(SbAssembly *assembly, const SbValveParts *parts, SbReport *report);
 
 // Returns the name of a part (SB_VALVE_HOUSING, ...), such as "stem top"; static.

@@ -19,7 +19,7 @@ enum { SB_CHAMBER_PORTS = 4 };
 // When a port opens.
 typedef enum {
   SB_PORT_BOTH_WAYS, // open whenever the stem is in the range
-  SB_PORT_ON_RETURN, // opens when the stem enters the range from above (moving out of the
+  SB_PORT_ON_RETURN, // opens when the stem enters the range at `high` (moving out of the
                      // canister); closes when the stem leaves the range
 } SbPortWay;
 
@@ -66,11 +66,12 @@ void sb_chamber_cross(SbDoseChamber *chamber, double x, int direction, double *p
 double sb_chamber_rest_pressure(const SbDoseChamber *chamber, double pressure);
 
 // Returns dp/dt [Pa/s] at the chamber pressure `pressure` [Pa], for the open ports of finite area.
-// Below a pressure difference of 1e-4 of the canister pressure the square root is replaced by a
-// smooth polynomial.
+// Below a pressure difference of 1e-4 of the canister pressure (at least of 1 kPa) the square root
+// is replaced by a smooth polynomial.
 double sb_chamber_rate(const SbDoseChamber *chamber, double pressure);
 
-// Returns whether the flow has ceased, or inflow equals outflow, to a relative 1e-9.
+// Returns whether the flow through the open ports of finite area has ceased, or inflow equals
+// outflow, to a relative 1e-9; true if there is no such port.
 bool sb_chamber_settled(const SbDoseChamber *chamber, double pressure);
 
 // Dimensions of the dose chamber [m].
@@ -120,5 +121,5 @@ double sb_chamber_filling(double volume, double area, double drop, double densit
 // V/(CdA sqrt(2 dp/rho)). Then the vapour flows out, choked and isothermal: rho decays as exp(-0.63
 // CdA sqrt(p/rho_v) t/V). 0.63 = sqrt(g) (2/(g + 1))^((g + 1)/(2(g - 1))) at g = 1.1. Not modelled:
 // boiling in the orifice (Fauske 1985), cooling. If `area` or `drop` is not positive nothing flows
-// out; of a fluid with vapour 0 only `gas` remains after the liquid.
+// out in a finite time; of a fluid with vapour 0 only `gas` remains after the liquid.
 double sb_chamber_remaining(const SbDoseSupply *supply, double area, double drop, double time);

@@ -70,7 +70,7 @@ void sb_drive_start(SbDriveState *state, const SbDrive *drive);
 
 // Writes to *piece the interval that contains the time t [s]; its `until` is after t, possibly
 // INFINITY. *state advances: t must not decrease from call to call. `drive` must have passed
-// sb_drive_check(), with a kind other than SB_DRIVE_NONE.
+// sb_drive_check(). SB_DRIVE_NONE: value and rate are 0, `until` is INFINITY.
 void sb_drive_piece(SbDrivePiece *piece, SbDriveState *state, const SbDrive *drive, double t);
 
 // Writes value and time derivative of a drive of kind SB_DRIVE_SINE at time t [s].

@@ -96,7 +96,8 @@ typedef struct {
   SbDynamicsContact contact[SB_DYNAMICS_CONTACTS];
   SbDynamicsStop stop[SB_DYNAMICS_STOPS];
   // Positions at which the loads change [m], increasing. Region r is from edge[r-1] to edge[r];
-  // region 0 is below edge[0], region `edges` above the last one.
+  // region 0 is x < edge[0], region `edges` is x > edge[edges - 1]. A stem that starts on edge[i]
+  // is in region i + 1.
   double edge[SB_DYNAMICS_EDGES];
   // Writes the loads at x in a region; *loads is zeroed before. If they are constant it is called
   // once for each visit of a region. NULL: no loads.
@@ -123,9 +124,9 @@ typedef struct {
   SbStatus (*mass_at)(double *mass, double x, double v, void *user, SbReport *report);
   void *user;
   SbDrive drive; // {0}: no drive; its arrays are borrowed
-  // Spring and damper between the platen and the stem [N/m] > 0, [N s/m] >= 0. A drive of force
-  // ignores the stiffness; its force is reduced by drive_damping times the speed and ends when the
-  // drive's force is 0.
+  // Spring and damper between the platen and the stem [N/m] > 0, finite; [N s/m] >= 0. A drive of
+  // force ignores the stiffness; its force is reduced by drive_damping times the speed and ends
+  // when the drive's force is 0.
   double drive_stiffness, drive_damping;
   bool drive_bonded;                  // the drive also pulls
   double start_position, start_speed; // [m], [m/s]
@@ -189,7 +190,8 @@ typedef enum {
 // State and forces at one time. Forces on the stem are positive into the canister.
 typedef struct {
   double time, position, speed, acceleration; // [s], [m], [m/s], [m/s2]
-  double drive_position; // position of the platen; of the stem with a drive of force [m]
+  // Position of the platen [m]; of the stem with a drive of force; 0 without a drive.
+  double drive_position;
   double drive_force, loads_force, spring_force; // forces of drive, SbDynamicsLoads.force and
                                                  // return spring on the stem [N]
   double stop_force[SB_DYNAMICS_STOPS];          // magnitude of the reaction, >= 0 [N]
@@ -347,8 +349,9 @@ SbStatus sb_dynamics_check(const SbDynamicsModel *model, SbReport *report);
 // must not change. Errors as for sb_dynamics_check().
 SbStatus sb_dynamics_init(SbDynamics *dynamics, const SbDynamicsModel *model, SbReport *report);
 
-// Sets a function that is called at each event, with `user`; NULL: none. Events of cycles that are
-// passed over (counters.repeated) are not reported.
+// Sets a function that is called at each event, with `user`; NULL: none. To be called after
+// sb_dynamics_init(), which removes the function. Events of cycles that are passed over
+// (counters.repeated) are not reported.
 void sb_dynamics_listen(SbDynamics *dynamics,
                         void (*listener)(const SbMotionEvent *event, void *user), void *user);
 

@@ -179,22 +179,26 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report);
 // advances by a number of full cycles; if they change slowly, by a group of cycles.
 void sb_motion_repeat(SbDynamics *s, int event);
 
-// What is ahead of cycles of stick-slip until something else happens.
+// Limits of a group of stick-slip cycles from the present state.
 typedef struct {
-  double time, way; // s, m
+  // time: until the drive's piece ends [s]; INFINITY: it does not end. way: distance to the next
+  // edge or stop minus the stretch of the drive's spring [m]; INFINITY: there is none; negative:
+  // too close for further cycles.
+  double time, way;
 } SbMotionAhead;
 
-// Returns what is ahead of a stem that goes in `direction` (+1 or -1) by cycles in which it is
-// nowhere farther from its mean than the drive's spring is long. `time` is not limited by the
-// target of sb_dynamics_advance().
+// Returns the limits for a stem that moves in `direction` (+1 or -1), within whose cycles it is
+// nowhere farther from its mean position than the stretch of the drive's spring. `time` is not
+// limited by the target of sb_dynamics_advance().
 SbMotionAhead sb_motion_ahead(const SbDynamics *s, int direction);
 
 // Returns whether since `was` there were only slips, sticks, bands of speed and contacts lost and
-// made by the platen, and the machine pushes.
+// made by the platen, and the machine pushes. False if was->event is EVENT_NONE.
 bool sb_motion_undisturbed(const SbDynamics *s, const SbDynamicsBreak *was);
 
-// Advances time to `until` [s], and the stem to x [m], over a number of cycles; all else except
-// energies remains.
+// Advances time to `until` [s], and the stem to x [m], over a number of cycles, which are added to
+// counters.repeated. The caller adds the energies of the cycles, except those of relaxing stops.
+// All else remains; the times of contacts (since, slipped) are shifted.
 void sb_motion_pass(SbDynamics *s, double until, double x, double cycles);
 
 // Sets s->broke to the present state just after `event`, a break-away.

@@ -55,7 +55,7 @@ enum { SB_EVENT_LOGS = 4 };
 //       + sum over `logs` terms of gain ln(1 + (start + tau)/time)        (gain >= 0, time > 0)
 typedef struct {
   double constant, rate, of_x, of_v;
-  double relax, relax_rate; // relax_rate in 1/s
+  double relax, relax_rate; // relax_rate >= 0 [1/s]
   int logs;                 // terms in use, at most SB_EVENT_LOGS
   struct {
     double gain, start, time; // start, time in s
@@ -64,7 +64,7 @@ typedef struct {
                 // rounding error; 0: `constant` is exact
 } SbEventFunction;
 
-// Returns the first tau in [0, horizon] [s] at which g becomes negative, and sets *found. Without
-// an event it returns `horizon` and *found is false. If g(0) = 0, the event is at 0 if g decreases
-// and none if it increases.
+// Returns the first tau in [0, horizon] [s] at which g becomes negative, and sets *found; `horizon`
+// >= 0 is finite. Without an event it returns `horizon` and *found is false. If g(0) = 0, the event
+// is at 0 if g decreases and none if it increases.
 double sb_event_first(const SbEventFunction *g, const SbOscillator *o, double horizon, bool *found);

@@ -19,8 +19,8 @@ typedef struct {
 } SbOutline;
 
 // Converts a half-section to a polygon. Arcs are divided so that they deviate from their chords by
-// at most `sagitta` [m], or by more if SB_OUTLINE_MAX points are not enough. SB_ERROR_INPUT as for
-// sb_profile_check(); `out` is empty then.
+// at most `sagitta` [m] > 0, or by more if SB_OUTLINE_MAX points are not enough. SB_ERROR_INPUT:
+// the half-section does not bound a body (sb_profile_check()); *out is empty then.
 SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *profile, double sagitta,
                                SbReport *report);
 
@@ -39,11 +39,12 @@ typedef struct {
 // Computes the surfaces of an outline, which must not cross itself.
 void sb_outline_surface(SbOutlineSurface *out, const SbOutline *outline);
 
-// Writes the inner and the outer radius at x [m] to *low and *high. Returns false if there is no
-// part at x.
+// Writes the inner and the outer radius at x [m] to *low and *high; at a step the values to the
+// right of x, at the right end of the part those to the left. Returns false if there is no part at
+// x.
 SB_CHECKED bool sb_outline_radii(double *low, double *high, const SbOutlineSurface *surface,
                                  double x);
 
 // Returns the volume [m3] between the outer surface and the cylinder of radius `radius` [m], from
-// x0 to x1 [m]. Where the surface is outside the cylinder, 0 is added.
+// x0 to x1 [m]. Where the surface is outside the cylinder or there is no part, 0 is added.
 double sb_outline_room(const SbOutlineSurface *surface, double radius, double x0, double x1);

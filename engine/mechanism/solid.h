@@ -58,16 +58,19 @@ typedef struct {
 SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile, double x0,
                               double x1, SbReport *report);
 
-// Writes the unit vector along which a body with the moments `inertia` is closest to a body of
-// revolution: a coordinate axis, unless all of these are off by more than 2 % of the moments across
-// them and a principal axis by less than 0.1 %. The largest component is positive.
+// Writes the unit vector of the axis about which a body is closest to a body of revolution;
+// `inertia` is its tensor (SbSolid). The asymmetry of an axis is the difference of the two moments
+// across it divided by their sum, including the products of inertia. The result is the coordinate
+// axis with the smallest asymmetry. If that exceeds 2 % and a principal axis has less than 0.1 %,
+// it is this principal axis. The largest component of the result is positive.
 void sb_solid_axis(double axis[3], const double inertia[3][3]);
 
-// Gives the triangles of each connected part of a mesh the orientation that most of its area has,
-// and reverses a part with all parts inside of its box where it is inside out. Parts are connected
-// by edges of exactly two triangles. Of more than 1000 parts nothing is changed. Writes the number
-// of triangles that were reversed. triangles[count][3] has vertex numbers, vertices[][3] their
-// places (x, y, z).
+// Orients the triangles of a mesh consistently, outwards. A part is a set of triangles that are
+// connected by edges of exactly two triangles; its triangles get the orientation that most of its
+// area has. If a part is then inside out, it is reversed together with all parts inside its
+// bounding box. A mesh of more than 1000 parts is not changed. *turned receives the number of
+// triangles that were reversed. triangles[count][3] has vertex numbers, vertices[][3] the positions
+// (x, y, z) of the vertices, in any unit. SB_ERROR_INPUT: `count` is 0.
 SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const double *vertices,
                         SbReport *report);
 

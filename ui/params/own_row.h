@@ -4,8 +4,9 @@
 
 #include <gtk/gtk.h>
 
-// Returns a new row (floating reference). `title` and `tip` (the tooltip) are translated and
-// copied. The row takes `chooser` as a child; its accessible name is the title.
+// Returns a new row (floating reference). `title` and `tip` (the tooltip) are translated texts of
+// the caller, and are copied. The row takes `chooser` as a child and gives it the title as its
+// accessible name.
 GtkWidget *sb_own_row_new(const char *title, const char *tip, GtkWidget *chooser);
 
 // Shows `text`, a translated sentence, as the error of the choice; NULL removes it.

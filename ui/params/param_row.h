@@ -27,6 +27,6 @@ gboolean sb_param_row_help(GtkWidget *widget);
 
 // Draws the effect of the parameter on a figure: `share` is the effect divided by the largest
 // effect of any parameter, -1 to 1; NaN: not known. `former`: the effect belongs to earlier values
-// and is drawn paler. `text` (translated, copied; NULL: none) is the effect in words, for the
-// tooltip.
+// and is drawn paler. `text` (a translated text of the caller, copied; NULL: none) is the effect in
+// words, for the tooltip.
 void sb_param_row_show_effect(SbParamRow *row, double share, gboolean former, const char *text);

@@ -23,5 +23,6 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind);
 
 // Returns the stages of the displayed run of `session` (time [s], displacement [m], force [N]) as
 // tab-separated text with a heading line, followed by the comparison with pinned runs and measured
-// data if there is one. Numbers have a decimal point.
+// data if there is one. A stage that was not reached has no line; without a run there is only the
+// heading. Numbers have a decimal point.
 char *sb_chart_view_stage_table(SbSession *session);

@@ -27,8 +27,9 @@ typedef struct {
 // Returns the translated title of a chart. Static.
 const char *sb_chart_view_name(SbChartViewKind kind);
 
-// Reads the contact's panel of a pressure or film chart under the pointer into *out. Returns FALSE
-// if the pointer is not over a panel, or the chart has no such panels.
+// Writes to *out the pressure or the film under the pointer, read from the curve of a contact's
+// panel. Returns FALSE if the pointer is not over a panel, there is no curve, or the chart is not
+// one of pressures or films.
 gboolean sb_chart_view_read_contact(const SbChartWidget *view, SbProfileReading *out);
 
 // Returns the prediction for the present values that the chart draws over the run of earlier ones;

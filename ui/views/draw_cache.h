@@ -7,12 +7,14 @@
 // The stored picture of one area.
 typedef struct SbDrawCache SbDrawCache;
 
-// Draws the full picture of `width` x `height` logical pixels; the origin is its top left corner.
+// Draws the full picture, with its background, of `width` x `height` logical pixels; the origin is
+// its top left corner.
 typedef void (*SbDrawCacheDraw)(cairo_t *cr, double width, double height, void *data);
 
 // Makes `area`, a GtkDrawingArea, show what draw(cr, width, height, data) draws, with a focus ring.
-// To be called once for an area. The result belongs to the widget and must not be used after its
-// destruction; `data` must live as long.
+// A change of size, scale or theme causes a new drawing, too. To be called once for an area. The
+// result belongs to the widget and must not be used after its destruction; `data` must live as
+// long.
 SbDrawCache *sb_draw_cache_attach(GtkWidget *area, SbDrawCacheDraw draw, void *data);
 
 // States that the picture has changed. It is drawn with the next frame, or, if it was drawn less

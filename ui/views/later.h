@@ -24,7 +24,8 @@ void sb_later_set(SbLater *later, gpointer owner, guint ms, void (*call)(gpointe
 void sb_later_ensure(SbLater *later, gpointer owner, guint ms, void (*call)(gpointer data),
                      gpointer data);
 
-// Schedules call(data) every `ms` milliseconds until sb_later_cancel() or the end of `owner`.
+// Schedules call(data) every `ms` milliseconds until sb_later_cancel() or the end of `owner`. A
+// call that is pending in `later` is replaced.
 void sb_later_repeat(SbLater *later, gpointer owner, guint ms, void (*call)(gpointer data),
                      gpointer data);
 

@@ -27,7 +27,8 @@ void sb_section_handles_listen(SbSectionHandles *handles, SbSectionChosen chosen
 
 // Sets the handles for the section that was drawn, at the instant `frame` of a run of `model`;
 // `corner` is the position of the picture's top left corner. To be called after each drawing.
-// `section` NULL: there are no handles. Everything is read only during the call.
+// `section` NULL: there are no handles; `model` and `frame` may then be NULL, too. Everything is
+// read only during the call.
 void sb_section_handles_follow(SbSectionHandles *handles, const SbSection *section,
                                const SbModel *model, const SbFrame *frame, SbPoint corner);
 

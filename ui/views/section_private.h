@@ -26,7 +26,7 @@ typedef struct {
   SbSectionLook look;      // that of the scene when the toolbar last followed it
   double zoom;             // enlargement of the valve, 1 to 6
   double pan_x, pan_y;     // position of the area in the enlarged picture [px]
-  double press_x, press_y; // where the pointer was pressed [px]; with the pan in a section
+  double press_x, press_y; // where the pointer was pressed [px]; in the section plus the pan
   gboolean pans;           // a pressed pointer moves or turns the picture
   double press_azimuth, press_elevation; // camera when the pointer was pressed [rad]
   SbGlContext *context;      // GL without a window, owned; NULL: not needed, or there is none
@@ -43,7 +43,7 @@ gboolean sb_section_is_cutaway(SbSectionWidget *view);
 // Returns whether the displayed run has rings with fields, but not the chosen field.
 gboolean sb_section_lacks_field(SbSectionWidget *view);
 
-// Returns whether the present values request that field, so that the next run has it.
+// Returns whether the present values request the chosen field, so that the next run has it.
 gboolean sb_section_asks_field(SbSectionWidget *view);
 
 // Draws the picture again, soon; while something moves not more often than every 33 ms.

@@ -8,15 +8,16 @@
 // The user's choice: as the desktop, light, or dark.
 typedef enum { SB_STYLE_SYSTEM, SB_STYLE_LIGHT, SB_STYLE_DARK } SbStyleTheme;
 
-// Loads the style sheet for the default screen with this theme, and follows changes of the desktop.
-// May be called again to change the theme.
+// Loads the style sheet for the default screen with this theme. SB_STYLE_SYSTEM: the theme that the
+// desktop has during the call; later changes of the desktop are not followed. May be called again
+// to change the theme.
 void sb_style_apply(SbStyleTheme theme);
 
 // Returns whether the dark palette is in use.
 gboolean sb_style_is_dark(void);
 
 // Sets the accessible name of `widget`, and its accessible description unless `description` is
-// NULL. Texts are translated.
+// NULL. The caller passes translated texts.
 void sb_style_name(GtkWidget *widget, const char *name, const char *description);
 
 // Returns a new GtkMenuButton (floating reference) whose tooltip is hidden while its popover is
@@ -29,8 +30,8 @@ void sb_style_former(GtkWidget *picture, gboolean former);
 // Adds a style class to `widget`.
 void sb_style_class(GtkWidget *widget, const char *name);
 
-// Returns a new label (floating reference), visible, with the style class `name`. `text` (NULL:
-// empty) is translated; `align` is its horizontal alignment, 0 left to 1 right.
+// Returns a new label (floating reference), visible, with the style class `name`. `text` is the
+// translated text (NULL: empty); `align` is its horizontal alignment, 0 left to 1 right.
 GtkWidget *sb_style_label(const char *text, const char *name, float align);
 
 // Fills the clip region of `cr` with the colour of `role`, which remains cairo's source, and

@@ -8,7 +8,7 @@ typedef struct SbCalibrateJob SbCalibrateJob;
 // Starts the calibration of `study`, which the job owns from now on. `done` is called once in the
 // main thread when it has ended, also after failure or cancellation, unless the job was freed
 // before. Never NULL; freed by sb_calibrate_job_free(). sb_worker_progress() and sb_worker_cancel()
-// take the job.
+// of app/session/worker.h take the job.
 SbCalibrateJob *sb_calibrate_job_start(SbStudyFile *study, void (*done)(void *data), void *data);
 
 // Once, after `done`: moves the result to the caller: `out`, freed by sb_calibration_release(), and

@@ -53,7 +53,7 @@ const SbDesignAnswer *sb_design_page_answer(SbDesignPage *page);
 // Ends the use of sb_design_page_answer().
 void sb_design_page_release(SbDesignPage *page);
 
-// Shows a sentence in the line of messages. `text` is copied.
+// Shows `text`, a translated sentence, in the line of messages; "": none. It is copied.
 void sb_design_page_say(SbDesignPage *page, const char *text);
 
 // Draws the map, the effects of tolerances and the drawn valves again, soon.
@@ -66,8 +66,8 @@ void sb_design_page_refresh(SbDesignPage *page);
 // otherwise ends the running job and states that the map has to be computed again.
 void sb_design_page_asked(SbDesignPage *page);
 
-// Appends a button with a tooltip to `bar` and returns it; `call` is its handler of "clicked" with
-// `page` as data.
+// Appends a button with the translated `label` and tooltip `tip` to `bar` and returns it; `call` is
+// its handler of "clicked" with `page` as data.
 GtkWidget *sb_design_page_add_button(GtkBox *bar, const char *label, const char *tip,
                                      GCallback call, SbDesignPage *page);
 

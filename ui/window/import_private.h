@@ -57,7 +57,7 @@ struct SbImportDialog {
 
 // ---- The form (import_dialog.c) ----
 
-// Shows a message; NULL: no message.
+// Shows `why`, a translated sentence, as the message of the dialog; NULL: no message.
 void sb_import_problem(SbImportDialog *dialog, const char *why);
 
 // Shows why a file is not read. `problem` is the message without its remedy, freed here. If

@@ -5,10 +5,13 @@
 #include "app/document/cad_parts.h"
 #include "app/export/surface.h"
 
-// A kind of file, whose functions get an object of `size` bytes, zero at first.
+// A kind of file, whose functions get an object of `size` bytes, zero at first. The job calls
+// `init`, then on its thread `choose` for each choice and `read`, at last `clear`. `choose` and
+// `read` return false and set *error after a failure, which ends the job.
 typedef struct {
   size_t size;
   void (*init)(void *object); // sets the default choices
+  // Sets the choice `name` to the value `text`.
   bool (*choose)(void *object, const char *name, const char *text, GError **error);
   bool (*read)(void *object, const char *path, GError **error); // `path` outlives the object
   void (*clear)(void *object);                                  // also after a failure

@@ -8,9 +8,9 @@
 // sb_toast_show(); the line is freed with the window.
 void sb_toast_attach(GtkWindow *window);
 
-// Shows `text` (translated) in place of the earlier one. `action`: name of an action
-// ("win.show-report") for a button with the label `button` (translated); NULL: no button, `button`
-// is not used. `stays`: the line does not hide itself; it is shown until its button is clicked or
-// another line replaces it.
+// Shows `text`, which the caller has translated, in place of the earlier one. `action`: name of an
+// action ("win.show-report") for a button with the translated label `button`; NULL: no button,
+// `button` is not used. `stays`: the line does not hide itself; it is shown until another line
+// replaces it.
 void sb_toast_show(GtkWindow *window, const char *text, const char *button, const char *action,
                    gboolean stays);
