@@ -34,7 +34,7 @@ typedef struct {
   bool as_run;  // compute shelf figures only if the views or limits of `base` need them
   bool tangent; // linearise rings about `start` instead of solving them; ignored without `start`
   size_t work_used;    // steps of output.work_limit that are not available to this question
-  SbRingsBeside rings; // with `tangent` and `start`: how the rings are evaluated
+  SbRingsBeside rings; // with `tangent` and `start`: how rings are evaluated; 0: SB_RINGS_FOLLOW
   // Called at least every 50 ms in the calling thread; true cancels. NULL: never.
   bool (*cancelled)(void *data);
   void *data;

@@ -47,7 +47,8 @@ typedef void (*SbGradientProgress)(void *data, size_t done, size_t count);
 //   SB_ERROR_INPUT          a parameter is not real
 //   SB_ERROR_NOT_CONVERGED  *out is created; figures without a value have no derivative
 //
-// Other errors as for sb_evaluator_ask(), with *out = NULL.
+// SB_ERROR_RANGE, SB_ERROR_INPUT (the question is refused), SB_ERROR_INFEASIBLE (the base has no
+// solution) and SB_ERROR_CANCELLED as for sb_evaluator_ask(), with *out = NULL.
 SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,
                             const SbParamId *parameter, size_t count, SbGradientProgress progress,
                             SbReport *report);

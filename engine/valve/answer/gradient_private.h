@@ -52,8 +52,8 @@ typedef struct {
 // Extracts the outcomes from a summary; NULL: known = false.
 void sb_gradient_outcome(SbGradientOutcome *out, const SbSummary *summary);
 
-// Returns whether two outcomes differ, and writes the first difference to text[size]; "" if there
-// is none.
+// Returns whether two outcomes differ, and writes the first difference to text[size]. Returns
+// false, and leaves `text`, if there is none, or if one of them is not known.
 bool sb_gradient_differ(char *text, size_t size, const SbGradientOutcome *a,
                         const SbGradientOutcome *b);
 
@@ -136,7 +136,8 @@ typedef struct {
 // Returns the array [figures] of values at a point of a level, in work->value.
 double *sb_gradient_values(const SbGradientWork *work, int level, int point);
 
-// Steps of the levels, as parts of the parameter's scale.
+// Steps of the levels, divided by the parameter's scale: its magnitude; if that is 0, that of its
+// default, or its range.
 extern const double sb_gradient_parts[SB_GRADIENT_LEVELS];
 
 // Whether differences determine a slope: they do, they do not, or there are none.
@@ -146,10 +147,12 @@ typedef enum { SB_GRADIENT_SMOOTH, SB_GRADIENT_ROUGH, SB_GRADIENT_MISSING } SbGr
 typedef struct {
   SbGradientKind kind;
   double slope, error; // [figure/SI]
-  double apart;        // slopes towards both sides at h/2, or one-sided ones in turn [figure/SI]
-  double before;       // the same at h
-  double step;         // h/2 or h/4, > 0
-  bool hidden;         // the error is rounding's
+  // Difference of the slopes towards both sides at h/2; one-sided: of those at h/2 and h/4; of a
+  // pair: at h [figure/SI].
+  double apart;
+  double before; // the same difference at twice the step; of a pair INFINITY (accepted) or 0
+  double step;   // h/2; one-sided h/4; of a pair h; > 0
+  bool hidden;   // more than half of the error is due to rounding
 } SbGradientEstimate;
 
 // Estimates the slope of figure number `figure` from the values of the level `at`, which must have

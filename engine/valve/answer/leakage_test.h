@@ -51,10 +51,12 @@ typedef struct {
 } SbLeakageOdds;
 
 // Simulates `tests` (>= 10) tests of cans with the losses loss[samples] (>= 10) [kg per 365 days]
-// (INFINITY: open can) and the net fill `fill` [kg]. With enough samples each can is a different
-// one and the interval is Clopper and Pearson's; else cans are drawn with replacement and the
-// interval follows from ten subsets. Equal seeds give equal results. SB_ERROR_RANGE: fewer than ten
-// samples or tests, or invalid rules.
+// (INFINITY: open can) and the net fill `fill` [kg]. With at least tests (containers + more)
+// samples each can is a different one and the interval is Clopper and Pearson's; else cans are
+// drawn with replacement, the interval follows from ten subsets, and `tests` is rounded up to a
+// multiple of ten. Equal seeds give equal results. SB_ERROR_RANGE: fewer than ten samples or tests,
+// a fill that is not positive, or invalid rules (duration or containers not positive, more or
+// balance negative, more than SB_LEAKAGE_CONTAINERS_MAX containers).
 SbStatus sb_leakage_odds(SbLeakageOdds *out, const SbLeakageTest *test, const double *loss,
                          size_t samples, double fill, size_t tests, uint64_t seed,
                          SbReport *report);

@@ -213,7 +213,9 @@ const char *sb_verdict_name(SbVerdictKind kind);
 
 // Replaces *worst by *next if *next is worse, or if worst->figure is -1; returns whether it did. NO
 // is worse than UNKNOWN, UNKNOWN worse than YES. Of two YES the one relatively closer to its limit
-// is worse, of two NO the one further beyond its limit.
+// is worse, of two NO the one further beyond its limit. If both have the same answer and figure and
+// no limit, and more of this figure is better, the smaller value is worse. Otherwise *worst
+// remains.
 bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next);
 
 // Sets summary->verdict from the model's limits. All other members that the run computes, with

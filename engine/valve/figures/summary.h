@@ -291,9 +291,11 @@ typedef enum { SB_ANSWER_UNKNOWN, SB_ANSWER_NO, SB_ANSWER_YES } SbAnswer;
 
 // One criterion of the verdict: the answer, and the figure that decides it.
 typedef struct {
-  SbAnswer ok;          // YES: the criterion is met
-  int figure;           // index for sb_figure(); -1: no figure decides
-  double value, limit;  // of this figure, in its SI unit; NaN: not computed; no limit
+  SbAnswer ok; // YES: the criterion is met
+  int figure;  // index for sb_figure(); -1: no figure decides
+  // Value of this figure (NaN: not computed) and the limit that it is compared with (NaN: none), in
+  // the figure's SI unit.
+  double value, limit;
   char reason[SB_TEXT]; // one sentence about the answer, or ""
 } SbVerdict;
 

@@ -16,26 +16,29 @@
 
 #include "engine/valve/model/model.h"
 
-// Sets the fields of *model that describe rings, gland and bore (section, profile, radial_space,
-// axial_width, bore_diameter, wall friction) from the gasket.* parameters and stem_diameter. The
-// first step of sb_model_compile() for this kind, before thermal expansion and storage.
+// Sets the fields of *model that describe rings, gland and bore (seal[].stored sizes, profile,
+// radial_space, axial_width, bore_diameter, wall friction) from the gasket.* fields and
+// stem_diameter, and switches off what only pistons have (floor friction, vent_on_return,
+// refill_travel). All are sizes of new parts at 20 degC: sb_model_compile() calls this for
+// valve.kind = gasket when the parameters are set, before thermal expansion and storage.
 void sb_gasket_take(SbModel *model);
 
-// Sets squeeze, stretch_inner and interference of a seal whose sizes after storage are set;
+// Sets squeeze [1] (the crimp), stretch_inner [1] and interference [m] (stem diameter minus free
+// bore) of a seal whose inner_diameter after storage is set, as is the bore_diameter of `model`;
 // stretch_mean, section_fitted and gland_fill, which only rings have, are set to NaN.
 void sb_gasket_derive(SbSealModel *seal, const SbModel *model);
 
 // Adds the problems of the gaskets' sizes, and of models that gaskets do not support, to
-// `problems`.
+// `problems`. Only the parameters of `model` need to be set.
 void sb_gasket_check(const SbModel *model, SbProblems *problems);
 
-// Returns the volume of the chamber between the gaskets [m3]. This and the next two functions need
-// a compiled model.
+// Returns the volume of the chamber between the gaskets at the temperature of use [m3]; not above 0
+// if they leave no chamber. This and the next two functions need the sizes of a compiled model.
 double sb_gasket_volume(const SbModel *model);
 
 // Returns the flow area past the neck into the chamber [m2].
 double sb_gasket_neck(const SbModel *model);
 
-// Returns the stem displacement at which the edge of the side port leaves the stem gasket's contact
-// [m].
+// Returns the stem displacement at which the edge of the side port, on the in-stroke, leaves the
+// stem gasket's contact and opens the chamber to the outside [m].
 double sb_gasket_port_opens(const SbModel *model);

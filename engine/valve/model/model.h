@@ -93,15 +93,16 @@ void sb_model_data_hold(const SbModelData *data);
 // sizes, profiles, grooves, combinations of models, fluid.
 void sb_model_check(const SbModel *model, SbProblems *problems);
 
-// Compiles parameters into *out, without limits; `data` (NULL: none) is borrowed. SB_ERROR_INPUT:
-// inconsistent values; `problems` (NULL: not wanted) lists them. *out is unchanged after an error.
+// Compiles parameters into *out, without limits; `data` (NULL: none) is borrowed as long as *out is
+// used, and *out needs no destroy. SB_ERROR_INPUT: inconsistent values. *problems (NULL: not
+// wanted) is overwritten by the list of them. *out is unchanged after an error.
 SbStatus sb_model_compile(SbModel *out, const SbParams *params, const SbModelData *data,
                           SbProblems *problems);
 
-// Compiles the parameters of `base` with overrides[count] into *out, in memory of the caller, like
-// sb_model_derive() and with its errors. *out borrows the data of `base`, needs no destroy, may be
-// `base` itself, and is unchanged after an error. Only base->params and limits are used: fields of
-// `base` that were changed directly are computed again.
+// Compiles the parameters of `base` with overrides[count] (NULL if the count is 0) into *out, in
+// memory of the caller, like sb_model_derive() and with its errors. *out borrows the data of
+// `base`, needs no destroy, may be `base` itself, and is unchanged after an error. Only
+// base->params and limits are used: fields of `base` that were changed directly are computed again.
 SbStatus sb_model_override(SbModel *out, const SbModel *base, const SbOverride *overrides,
                            size_t count, SbReport *report);
 

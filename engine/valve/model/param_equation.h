@@ -9,7 +9,7 @@ typedef struct {
                         // seal.inner.X count as seal.X; the longest matching prefix applies
   const char *equation; // UTF-8, lines separated by \n
   const char *source;   // author and year, or equation number of the thesis
-  const char *room;     // folder or file of the code that solves it
+  const char *room;     // folder or file of the code that solves it, "engine/contact"
 } SbParamEquation;
 
 // Returns the equation of a parameter; NULL if it enters none (drawing, output).

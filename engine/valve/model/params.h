@@ -120,8 +120,8 @@ int sb_param_tolerance(SbParamId id);
 // size.
 int sb_param_toleranced(SbParamId id);
 
-// Numbers of the valve's inputs in reports and warnings (SbReport.input): its parameters, then the
-// files that keys of documents name.
+// Numbers of the valve's inputs in reports and warnings (SbReport.input): its parameters from
+// SB_VALVE_INPUTS (status.h) on, then the files that keys of documents name.
 enum {
   SB_INPUT_SECTION_FILE = SB_VALVE_INPUTS + SB_PARAM_COUNT, // seal.profile_file
   SB_INPUT_GROOVE_FILE,                                     // gland.profile_file
@@ -135,14 +135,15 @@ static inline int sb_input(SbParamId id) {
   return SB_VALVE_INPUTS + (int)id;
 }
 
-// Maps the number of an input of a room below the valve to that of the valve's input. Returns any
-// other number unchanged.
+// Maps an SbReport.input of a module that the valve uses (SB_CONTACT_IN_..., SB_FILM_IN_... and
+// those of rubber, fluid and mechanism) to the number of the valve's input. Returns any other
+// number unchanged. The next two functions also take both kinds of numbers.
 int sb_input_resolve(int input);
 
-// Returns the SbParamId of an input of the valve or of a room below it; -1 if it is none.
+// Returns the SbParamId of an input; -1 if the input is not a parameter.
 int sb_input_parameter(int input);
 
-// Returns the key of an input of the valve or of a room below it; "" if there is none. Static.
+// Returns the key of an input (of a parameter or a file); "" if there is none. Static.
 const char *sb_input_key(int input);
 
 // Returns the number of the valve's input with this key; 0 if there is none.
@@ -165,7 +166,8 @@ typedef struct {
   } figure[SB_RUBBER_FIGURES_MAX];
 } SbRubberSheet;
 
-// A set of values. Initialise with sb_params_init().
+// A set of values. Initialise with sb_params_init(); set values with sb_params_set(), and given[id]
+// to false to return to the default.
 typedef struct {
   double value[SB_PARAM_COUNT]; // SI; not used if not given
   const SbRubberSheet *rubber;  // borrowed; NULL: none
@@ -209,12 +211,13 @@ bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
 // fluid.name, if the parameter is 0, or if `id` does not depend on the fluid.
 int sb_params_other_fluid(const SbParams *params, SbParamId id);
 
-// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0); -1 after the last
-// one.
+// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0), a swell or
+// permeability; -1 after the last one.
 int sb_params_of_fluid(int index);
 
-// Sets fluid.figures of `params` to the fluid of `base`, if the two have different fluids, share a
-// given fluid-dependent value, and neither has fluid.figures.
+// Call it after changes to `params`, a copy of `base`. Sets fluid.figures of `params` to the fluid
+// of `base`, if the two have different fluids, share a given fluid-dependent value above 0, and
+// neither has fluid.figures; so the value remains that of the fluid for which it was given.
 void sb_params_keep_fluid(SbParams *params, const SbParams *base);
 
 // Returns whether a rubber's file may have a value of this parameter.

@@ -229,9 +229,10 @@ typedef enum {
 #define SB_DECLARE_IN(...)
 
 // A ring (or gasket) and the quantities that follow from its size and gland. Sizes and modulus are
-// those after storage, at the temperature of use. The SB_SEAL rows of params.def declare the
-// members poisson_ratio, mooney_share [1], section_diameter_tolerance and inner_diameter_tolerance
-// [m].
+// those after storage, at the temperature of use. For a gasket squeeze is its crimp, interference
+// the stem diameter minus the inner diameter, and stretch_mean, section_fitted and gland_fill are
+// NaN. The SB_SEAL rows of params.def declare the members poisson_ratio, mooney_share [1],
+// section_diameter_tolerance and inner_diameter_tolerance [m].
 typedef struct {
   SbRubberStorage stored; // the new ring (section and inner diameter, modulus) and its history
   SbRubberState storage;  // result of the storage
@@ -275,17 +276,20 @@ uint64_t sb_model_data_drawings(const SbModelData *data);
 // Compiles parameters into a model; free it with sb_model_destroy(). The model takes a reference of
 // its own to `data` (NULL: no series, drawings and outlines) and copies `limits` (NULL: none).
 // params->rubber is borrowed and must exist as long as the model (usually &data->rubber).
-// SB_ERROR_INPUT: inconsistent values; `problems` (NULL: not wanted) lists all of them.
+// SB_ERROR_INPUT: inconsistent values. *problems (NULL: not wanted) is overwritten by the list of
+// them, with the count 0 after SB_OK.
 SbStatus sb_model_create(SbModel **out, const SbParams *params, const SbModelData *data,
                          const SbLimits *limits, SbProblems *problems);
 
-// Compiles the parameters of `base` with overrides[count] in their place; the last one of a
-// parameter applies. Data and limits are those of the base. SB_ERROR_RANGE, SB_ERROR_INPUT: the
-// report has key, value and range.
+// Compiles the parameters of `base` with overrides[count] in their place (NULL if the count is 0);
+// the last one of a parameter applies. Data and limits are those of the base. Free the model with
+// sb_model_destroy(). SB_ERROR_RANGE: an override is outside its range; SB_ERROR_INPUT: it is no
+// valid value, or the values are inconsistent. The report has key, value and range.
 SbStatus sb_model_derive(SbModel **out, const SbModel *base, const SbOverride *overrides,
                          size_t count, SbReport *report);
 
-// Creates a copy. SB_ERROR_MEMORY is its only error; there is no report.
+// Creates a copy, which sb_model_destroy() frees. SB_ERROR_MEMORY is its only error; there is no
+// report.
 SbStatus sb_model_copy(SbModel **out, const SbModel *model);
 
 // Frees a model and its reference to the data.

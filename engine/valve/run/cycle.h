@@ -77,12 +77,13 @@ typedef struct {
 
 // Computes the segments, the static friction after the dwell (`hold`), and the positions. They do
 // not depend on the fields that it sets. SB_ERROR_NOT_CONVERGED: more than SB_CYCLE_SEGMENTS_MAX
-// segments.
+// segments, or a contact ages as fast as the machine loads it; the first `count` segments are then
+// valid.
 SbStatus sb_cycle_build(SbCycle *cycle, SbReport *report);
 
 // The part of a seal's contact that is on the land: fractions of its width and of its load.
 typedef struct {
-  double width, load; // 0 (off the land) to 1 (all of it)
+  double width, load; // 0 (off the land, or no contact) to 1 (all of it)
 } SbLandShare;
 
 // Returns these fractions of `seal` at the stem displacement s [m], for the state of `chamber` and
@@ -120,15 +121,16 @@ double sb_cycle_static_friction(const SbCycle *cycle, int seal, SbChamber chambe
                                 double s);
 
 // Returns the stem displacement at which the land's edge reaches the left end of the inner contact
-// [m].
+// (gasket: the shoulder reaches its right end) [m].
 double sb_cycle_edge_begin(const SbCycle *cycle, SbChamber chamber, int direction);
 
 // Returns the stem displacement at which the inner contact has left the land on the in-stroke
-// (chamber at rest), or reaches it on the return (chamber closed) [m].
+// (chamber at rest), or reaches it on the return (chamber closed); in a gasket valve, at which the
+// full contact is on the shoulder [m].
 double sb_cycle_edge_end(const SbCycle *cycle, SbChamber chamber, int direction);
 
 // Sets cycle->hold for a `dwell` [s] at the end stop, for motions other than sb_cycle_build(),
-// which calls it itself. `model` and `state` must be set. Errors of sb_breakaway_after().
+// which calls it itself. `model` and `state` must be set. SB_ERROR_MEMORY is its only error.
 SbStatus sb_cycle_rest(SbCycle *cycle, double dwell, SbReport *report);
 
 // Returns F_p minus the friction that a stem at rest at s [m] must overcome to slide back [N]; < 0:

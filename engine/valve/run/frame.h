@@ -20,8 +20,9 @@ typedef struct {
   double film_min;     // minimum film [m]; 0 at rest unless the film history is solved; NaN without
                        // contact
   double film_central; // film in the middle of the contact [m]; 0 and NaN as film_min
-  double lambda;       // film_central divided by the rms roughness [1]
-  double real_area_share; // real contact area divided by contact area, sliding [1]; NaN as the film
+  double lambda;       // film_central divided by the rms roughness [1]; 0 and NaN as film_min
+  double real_area_share; // real contact area divided by contact area [1]; at rest that of the dry
+                          // contact; NaN without contact, and while sliding without a film
   double friction_boundary; // part of `friction` due to asperities, with its sign [N]
   double friction_viscous;  // part of `friction` due to the film, with its sign [N]
   double friction;          // force on the stem, > 0 if it pushes the stem out [N]
@@ -47,7 +48,7 @@ typedef struct {
   double time;             // [s]
   double displacement;     // s of the stem, > 0 into the canister [m]
   double velocity;         // of the stem, > 0 into the canister [m/s]
-  double platen;           // displacement of the machine's platen [m]
+  double platen;           // displacement of the platen, of the rig's motor, else of the stem [m]
   double force;            // of the drive on the stem, > 0 into the canister [N]
   double pressure_force;   // of the canister pressure on the stem, > 0 pushes it out [N]
   double stop_force;       // end stop > 0 (pushes out), rest stop < 0 [N]

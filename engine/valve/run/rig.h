@@ -18,11 +18,11 @@
 // Returns the number of samples of a record: floor(rig->duration rig->rate) + 1.
 size_t sb_rig_samples(const SbRig *rig);
 
-// Sets *model and *motion to the plate at rest with a slack thread. Then advance the motion to the
-// times i/rate by dynamics.h; in a sample drive_force is the signal of the load cell [N],
-// drive_position the wound length of the thread [m], and position that of the plate [m]. `rig` and
-// `model` are borrowed as long as the motion is used. SB_ERROR_RANGE: a value of `rig` is out of
-// range; other errors of sb_dynamics_init().
+// Sets *model and *motion, which own nothing, to the plate at rest with a slack thread. Then
+// advance the motion to the times i/rate by sb_dynamics_advance() (dynamics.h); in a sample
+// drive_force is the signal of the load cell [N], drive_position the wound length of the thread
+// [m], and position that of the plate [m]. `rig` and `model` are borrowed as long as the motion is
+// used. SB_ERROR_RANGE, SB_ERROR_INPUT: a value of `rig` is out of range.
 SbStatus sb_rig_start(SbDynamics *motion, SbDynamicsModel *model, const SbRig *rig,
                       SbReport *report);
 

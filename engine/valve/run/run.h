@@ -46,9 +46,11 @@ SbStatus sb_run_renew_same(SbRun *run, const SbModel *model, SbReport *report);
 // Frees a run that no thread executes.
 void sb_run_destroy(SbRun *run);
 
-// Computes the whole cycle. `hooks` may be NULL. SB_ERROR_CANCELLED; SB_ERROR_NOT_CONVERGED or
-// another status of a solver, with what was computed before. The summary is valid after any of
-// them, with a reason for each figure that has no value. Executing again repeats the computation.
+// Computes the whole cycle. `hooks` may be NULL. SB_ERROR_CANCELLED; SB_ERROR_NOT_CONVERGED: a
+// solver failed, an error estimate is too large, or output.work_limit is exhausted; SB_ERROR_RANGE,
+// SB_ERROR_INPUT, SB_ERROR_INFEASIBLE of a solver. Results computed before remain. The summary is
+// valid after any status, with a reason for each figure that has no value. Executing again repeats
+// the computation.
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Lets the next sb_run_execute() store its ring states, so that other runs can start from them.
@@ -83,7 +85,7 @@ void sb_run_predict_from(SbRun *run, const SbRun *base);
 void sb_run_rings_beside(SbRun *run, SbRingsBeside how);
 
 // Returns the published frames, oldest first, and writes their number to *count; borrowed until the
-// run is renewed or destroyed. Any thread.
+// run is executed again, renewed or destroyed. Any thread.
 const SbFrame *sb_run_frames(const SbRun *run, size_t *count);
 
 // Returns the array of the joints' reactions at the published frame `frame`:
@@ -97,8 +99,9 @@ const SbReaction *sb_run_reactions(const SbRun *run, size_t frame);
 SbStatus sb_run_pack(void **out, size_t *size, const SbRun *run, SbReport *report);
 
 // Creates a run from the bytes[size] of sb_run_pack(); `model` and `plan` must equal those of the
-// packed run. Its results can be read; it has no ring states, so it cannot be a base, and
-// sb_run_sliding() must not be called. SB_ERROR_INPUT: the bytes are damaged, or of another build.
+// packed run and are copied. Free the run with sb_run_destroy(). Its results can be read; it has no
+// ring states, so it cannot be a base, and sb_run_sliding() must not be called. SB_ERROR_INPUT: the
+// bytes are damaged, or of another build.
 SbStatus sb_run_unpack(SbRun **out, const SbModel *model, const SbPlan *plan, const void *bytes,
                        size_t size, SbReport *report);
 

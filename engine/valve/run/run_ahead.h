@@ -20,9 +20,10 @@ SbRunAhead *sb_run_ahead_create(void);
 void sb_run_ahead_destroy(SbRunAhead *ahead);
 
 // Adds the first ring of a task. The task is copied, and its pointers are borrowed until the queue
-// is destroyed. `slot` is any number that identifies the state in sb_run_ahead_take(). `work`
-// (copied) is the budget for solving it. Rings are solved in the order in which they are added, so
-// add them in the order in which the seals reach them. Only before threads use the queue.
+// is destroyed. `slot` is a number of the caller that identifies the state, different for each, in
+// sb_run_ahead_take(). `work` (copied) is the budget for solving it. Rings are solved in the order
+// in which they are added, so add them in the order in which the seals reach them. Only before
+// threads use the queue. Beyond one ring for each seal, SbChamber and motion it does nothing.
 void sb_run_ahead_add(SbRunAhead *ahead, const SbSlidingTask *task, int slot, const SbWork *work);
 
 // Solves rings that no thread has begun or taken, until there are none or `cancelled` (not NULL;

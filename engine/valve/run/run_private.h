@@ -9,8 +9,8 @@
 //
 // "Way" and `direction` are SB_CYCLE_IN or SB_CYCLE_OUT; "motion" is a way, or SB_RUN_REST;
 // `chamber` is an SbChamber; `seal` SB_OUTER or SB_INNER. `hooks` are never NULL here. Functions
-// that can fail return SB_ERROR_CANCELLED if the hooks or the budget cancel, and the status of the
-// failing solver.
+// that can fail return SB_ERROR_CANCELLED if the hooks cancel, SB_ERROR_NOT_CONVERGED if the budget
+// is exhausted, and the status of the failing solver.
 #pragma once
 
 #include "engine/mechanism/chamber.h"
@@ -67,14 +67,15 @@ enum { SB_BORE_LAYERS = 512 };
 
 // A layer on the bore, from the end of the layer before it to `end`.
 typedef struct {
-  double end;   // stem displacement [m]
+  double end;   // position [m]
   double layer; // thickness [m]
 } SbBoreLayer;
 
-// Layers that a seal has left on the bore, by stem displacement, and the transported volumes per
-// length of circumference.
+// Layers that a seal has left on the bore, or on the stem of a gasket valve, and the transported
+// volumes per length of circumference. All positions are the stem displacement multiplied by
+// sb_model_way(), so that they increase while liquid is transported out.
 typedef struct {
-  double start;                     // stem displacement at which the first layer begins [m]
+  double start;                     // position at which the first layer begins [m]
   double out, back;                 // volume transported out and back so far, >= 0 [m2]
   size_t count;                     // number of layers
   SbBoreLayer item[SB_BORE_LAYERS]; // with increasing `end`
@@ -98,8 +99,9 @@ typedef struct {
 // A band of speed in which friction is linear in speed.
 typedef struct {
   double low, high; // range of |speed| [m/s]
-  // Friction minus that of the dry contact, by seal and chamber (0 vented, or the only state; 1
-  // filled): part proportional to the contact's width, part proportional to its load.
+  // Friction minus that of the dry contact, by seal and chamber (0: SB_CHAMBER_AT_REST, 1:
+  // SB_CHAMBER_CLOSED; without ports only 0): parts proportional to the contact's width and to its
+  // load.
   SbBandPart width[SB_SEAL_COUNT][2], load[SB_SEAL_COUNT][2];
 } SbValveBand;
 
@@ -209,7 +211,9 @@ void sb_run_add_counters(SbCounters *sum, const SbCounters *more);
 SbStatus sb_run_store_shape(SbRun *run, int seal, int index, const SbRing *ring, SbReport *report);
 
 // Solves and stores the shapes of the inner ring over the land's edge for a way, and its free
-// shape. `from` is the inner ring solved for this way; solves are added to *counts (run_shapes.c).
+// shape. `from` is the inner ring solved for this way; solves are added to *counts. `options` is
+// for the free shape; true of its poll (not NULL) ends the function with SB_ERROR_CANCELLED.
+// Positions that do not converge have no shape.
 SbStatus sb_run_solve_edge(SbRun *run, int way, const SbRing *from, SbCounters *counts,
                            const SbRingOptions *options, SbReport *report);
 
@@ -304,20 +308,21 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
 // it, in the order of profile indices, must be solved (run_supply.c).
 SbSupply sb_run_supply(const SbRun *run, int seal, SbChamber chamber, int motion);
 
-// Returns the thickness of the layer that a seal sliding at |speed| [m/s] leaves on the bore on the
-// in-stroke, or can take back on the return [m]. May solve states, as sb_run_state_at().
+// Returns the thickness of the layer that a seal sliding at |speed| [m/s] leaves on the sliding
+// surface, or can take back, in `direction` [m]; 0 without liquid. May solve states, as
+// sb_run_state_at().
 double sb_run_layer(SbRun *run, int seal, SbChamber chamber, int direction, double speed);
 
-// Initialises *bore without layers, with the stem at the displacement s [m].
+// Initialises *bore without layers at the position s [m] (see SbBore).
 void sb_bore_start(SbBore *bore, double s);
 
-// Moves the stem from the displacement `from` to `to` [m] with a film that carries the thickness
-// `layer` [m]. If to > from (in-stroke) it leaves layers; else it takes layers back, each at most
-// to the thickness `layer`.
+// Moves the seal from the position `from` to `to` [m] (see SbBore) with a film that carries the
+// thickness `layer` [m]. If to > from it leaves layers; else it takes layers back, each at most to
+// the thickness `layer`.
 void sb_bore_move(SbBore *bore, double from, double to, double layer);
 
-// Sets leakage_per_cycle from the volumes of `bore`. It is NaN with a reason if the stem never
-// moved, or if `back` (the stem has returned to its start) is false. The outcome must be set
+// Sets leakage_per_cycle from the volumes of `bore`. It is NaN with a reason if `back` (the stem
+// has returned to its start) is false, and NaN if the stem never moved. The outcome must be set
 // (run_figures.c).
 void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back);
 
@@ -332,7 +337,7 @@ void sb_run_summarise_seals(SbRun *run);
 SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
 // Returns the fraction of the chamber that fills in the time from C to F, 0 to 1; NaN if C or F is
-// not reached, and in a gasket valve.
+// not reached, if the model has no filling_time, and in a gasket valve.
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
 
 // ---- Errors (run_errors.c)
@@ -369,7 +374,7 @@ void sb_run_set_user_fractions(SbSummary *summary, const SbModel *model);
 
 // Returns the mass that the last motion delivers [kg], >= 0: the `metered` mass [kg] multiplied by
 // sb_run_filled_share() (by 1 if that is NaN), minus the mass that remains in the vented chamber.
-// NaN if sb_run_delivers() is false; 0 if the canister's pressure is not above ambient.
+// It is 0 if the canister's pressure is not above ambient, else NaN if sb_run_delivers() is false.
 double sb_run_dose(const SbRun *run, double metered);
 
 // Sets run->count, and publishes the first `count` frames to readers unless run->hold is true.
@@ -408,8 +413,9 @@ typedef struct {
 void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int direction,
                      double speed);
 
-// Computes the state as sb_run_state_at() for a chamber of ports with the pressure `filled` of the
-// canister's, 0 (vented) to 1 (full), by linear interpolation between both.
+// Computes the state as sb_run_state_at() for a chamber of ports, by linear interpolation between
+// its states in SB_CHAMBER_AT_REST (`filled` = 0) and SB_CHAMBER_CLOSED (1): `filled` is
+// sb_valve_filling().
 void sb_run_state_between(SbSealState *out, SbRun *run, int seal, double filled, int direction,
                           double speed);
 

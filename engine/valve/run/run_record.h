@@ -35,7 +35,10 @@ typedef struct {
 
 // Makes the mechanism of the run's model and runs it to its end, to the tolerance `tolerance` [1]
 // (0: the model's). With `frames` it adds the frames of the run and calls the hooks. A motion
-// without frames leaves its warnings to the one that has them. *r refers to itself: do not copy it.
-// Errors of sb_valve_set_up() and of the motion; SB_ERROR_CANCELLED.
+// without frames leaves its warnings to the one that has them. *r, which may be uninitialised,
+// refers to itself: do not copy it. The states of run->cycle must be solved.
+// SB_ERROR_NOT_CONVERGED: the motion failed, or the budget is exhausted; SB_ERROR_RANGE,
+// SB_ERROR_INPUT, SB_ERROR_INFEASIBLE: the mechanism is not valid; SB_ERROR_CANCELLED. After an
+// error *r has the motion up to that instant.
 SbStatus sb_run_record(SbRecorder *r, SbRun *run, bool frames, double tolerance,
                        const SbRunHooks *hooks, SbReport *report);

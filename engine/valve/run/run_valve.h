@@ -11,8 +11,8 @@ typedef struct {
   double turn;     // a reverse slip after this time is the return, before it a rebound [s]
   bool ends_run;   // the run ends with the drive, without waiting for rest
   // Instants at which the platen turns or the slope of the finger's force changes; a frame is
-  // placed at each. `first` are those of the first period; they repeat with `period` until there
-  // are `corners`.
+  // placed at each. `first` are those of the first period (first[1] = 0: one only); they repeat
+  // with `period` until there are `corners`.
   int corners;
   double period, first[2]; // [s]
 } SbDriveTimes;
@@ -38,7 +38,8 @@ typedef struct {
 } SbValve;
 
 // Sets *valve and *out, the mechanism of the run's model for dynamics.h. *valve is its user data
-// and must exist as long as *out is used. SB_ERROR_INFEASIBLE: ports contradict each other.
+// and must exist, at its address, as long as *out is used. The states of run->cycle must be solved.
+// SB_ERROR_INFEASIBLE: ports without resistance are open to different pressures simultaneously.
 SbStatus sb_valve_set_up(SbDynamicsModel *out, SbValve *valve, SbRun *run, SbReport *report);
 
 // Returns the states that apply to the valve's present chamber, with the stem's last `direction` of
@@ -57,15 +58,18 @@ double sb_valve_filling(const SbRun *run, double pressure);
 // that in which the stem passes the edge in this chamber state.
 int sb_valve_passing(SbChamber chamber);
 
-// Returns the fractions of a seal's contact on the land, with the stem at s [m].
+// Returns the fractions of a seal's contact on the land, with the stem at s [m], for the state of
+// `chamber` in the direction sb_valve_passing(chamber).
 SbLandShare sb_valve_land_share(const SbCycle *cycle, int seal, SbChamber chamber, double s);
 
-// Inserts an edge of the mechanism at x [m], increasing, without doubles.
+// Inserts an edge of the mechanism at x [m] in increasing order. Does nothing if x is not finite or
+// is an edge already, or if there are SB_DYNAMICS_EDGES edges.
 void sb_valve_add_edge(SbDynamicsModel *out, double x);
 
 // Sets the chamber's ports, their edges and its pressure, for canister.pressure_map = ports.
-// SB_ERROR_INFEASIBLE: ports contradict each other.
+// sb_valve_set_up() calls it when drive and edges are set. Errors of sb_valve_set_up().
 SbStatus sb_valve_set_ports(SbDynamicsModel *out, SbValve *valve, SbReport *report);
 
-// Sets drive and start position in *out, and *times.
+// Sets drive and start position in *out, whose mass must be set, and *times. The states of
+// run->cycle must be solved.
 void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *run);

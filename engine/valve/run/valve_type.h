@@ -18,9 +18,10 @@ typedef struct {
 
 // Stem displacements at which the chamber changes its state in a motion with inertia [m].
 typedef struct {
-  double open;   // the edge, on the in-stroke
-  double closed; // the edge, on the return
-  double port;   // beyond it the port empties the chamber; NAN: there is none
+  double open; // where the edge opens (gasket: closes) the chamber on the in-stroke
+  // Where the edge closes the chamber on the return (gasket: opens it, if the port has emptied it).
+  double closed;
+  double port; // beyond it the port empties the chamber; NAN: there is none
 } SbChamberEdges;
 
 // One kind of valve.
@@ -44,31 +45,33 @@ typedef struct {
   // Why the seals have no gland; NULL: they have one.
   const char *no_gland;
 
-  // Returns the radius at which the heights of a drawn seal begin, which has `load` [m].
+  // Returns the radius [m] from which the heights of a drawn seal with the load `load` are
+  // measured: that of the groove floor, or of the stem under a gasket.
   double (*base_radius)(const SbModel *model, const SbRingLoad *load);
 
-  // Returns how far beyond bore.land_edge the edge reaches the inner contact `inner` [m]; `first`
-  // is the contact at rest on the in-stroke.
+  // Returns the stem displacement at which the edge reaches the inner contact `inner`, minus
+  // bore.land_edge [m]; `first` is the contact in SB_CHAMBER_AT_REST on the in-stroke.
   double (*edge_shift)(const SbSealState *first, const SbSealState *inner);
-  // Returns the state that decides where an open chamber closes, for a stem that moves in
-  // `direction`.
+  // Returns the chamber state whose inner contact decides where an open chamber closes, for a stem
+  // that moves in `direction`.
   SbChamber (*closes_as)(int direction);
   // Returns the displacement at which the port empties the chamber [m]; NAN: it has none.
   double (*port)(const SbModel *model);
-  // Returns the stage that a stem which moves to s reaches there, or `event`. Writes the chamber
-  // from there on to *chamber. The inner seal has contact.
+  // Returns the SbStage that a stem which moves to s reaches there, -1 for none; `event` is the
+  // stage, or -1, that it reaches there for other reasons. Writes the chamber from there on to
+  // *chamber. The inner seal has contact.
   int (*reach)(SbChamber *chamber, const SbCycle *cycle, const SbPassage *from, double s,
                int event);
   // Returns the state of the chamber after the stem has crossed the edge at s (one of `edges`, or
-  // another one) in `direction`, > 0 inwards. The inner seal has contact.
+  // another one); here `direction` is > 0 into the canister, < 0 out. The inner seal has contact.
   SbChamber (*cross)(const SbChamberEdges *edges, SbChamber chamber, int direction, double s);
   // Returns the static friction of a seal that the drive must overcome beyond the push of the stem
   // to hold it at the end stop [N].
   double (*stop_friction)(const SbCycle *cycle, int seal);
   // Returns whether the chamber in state `chamber` has liquid.
   bool (*is_wet)(const SbModel *model, SbChamber chamber);
-  // Writes the range of s [m] in which the chamber is open to the outside. Returns false if the
-  // stem never is there.
+  // Writes the range of s [m] in which the chamber is open to the outside; *high may be INFINITY.
+  // Returns false, with both written, if the stem never is in this range.
   bool (*vent)(double *low, double *high, const SbCycle *cycle);
 } SbValveType;
 

@@ -31,7 +31,8 @@
 // Species that permeate the rubber.
 typedef enum { SB_SHELF_PROPELLANT, SB_SHELF_WATER, SB_SHELF_SPECIES } SbShelfSpecies;
 
-// Returns the species that figure `figure`, one of SB_GROUP_SHELF, describes.
+// Returns the species that figure `figure` (index of sb_figure()), one of SB_GROUP_SHELF,
+// describes: water for moisture, else propellant.
 SbShelfSpecies sb_shelf_species(int figure);
 
 // If the permeability for a species is a typical value of such rubbers, not a measurement on this
@@ -74,8 +75,9 @@ double sb_shelf_slab(const SbModel *model, int seal);
 
 // Computes `seal` at rest, after the storage and under the pressures of the model. `cancel` (NULL:
 // never) is called with `data` at each iteration of a solved ring; true ends the function with
-// SB_ERROR_CANCELLED. SB_ERROR_NOT_CONVERGED: the ring or its permeation was not solved; other
-// errors of sb_fit_solve() and sb_diffusion_converge().
+// SB_ERROR_CANCELLED. SB_ERROR_NOT_CONVERGED: the ring or its permeation was not solved.
+// SB_ERROR_RANGE, SB_ERROR_INPUT: a size is out of the range of the fit model; SB_ERROR_INFEASIBLE:
+// the fit has no solution. An open seal is a result.
 SbStatus sb_shelf_rest(SbShelfRest *out, const SbModel *model, int seal, bool (*cancel)(void *),
                        void *data, SbReport *report);
 

@@ -32,9 +32,10 @@
 // Tabulates the static friction [N] of a solved sliding state against the dwell, for a state that
 // touches and whose section slides (sb_breakaway_after() takes the others too); read the table with
 // sb_dwell_at(). The table owns nothing. Its values are NaN if `state` lacks a quantity of the law.
-// Writes the dwell after which half of the film is squeezed out [s] to *squeeze_time (NaN without a
-// film). `known` is a rough law already computed for this seal's surface, which saves time, or
-// NULL. The only error is SB_ERROR_MEMORY.
+// Writes the dwell after which half of the film is squeezed out [s] to *squeeze_time (0: the film
+// is not thicker than the gap of the dry contact; NaN: there is no film). `known` is a rough law
+// already computed for this seal's surface, which saves time, or NULL. The only error is
+// SB_ERROR_MEMORY.
 SbStatus sb_breakaway_law(SbDwellLaw *out, double *squeeze_time, const SbModel *model, int seal,
                           const SbSealState *state, const SbRoughLaw *known, SbReport *report);
 

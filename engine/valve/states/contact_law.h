@@ -4,7 +4,8 @@
 //
 // Steps of a state: sb_sliding_solve() fits the contact, then solve() of the row computes film,
 // rough contact and friction. The other functions change a state that has been solved. Each takes a
-// task with a memory that this thread alone uses. After SB_ERROR_NOT_CONVERGED (a solver stopped
+// task with a memory that this thread alone uses. The state must have contact. `roughness` is the
+// roughness of the surface divided by the model's. After SB_ERROR_NOT_CONVERGED (a solver stopped
 // early) the state has its last values; after another error it is unspecified.
 #pragma once
 
@@ -28,27 +29,34 @@ typedef struct {
 
   // Computes film, rough contact and friction of a state whose contact and loads are set.
   SbStatus (*solve)(SbSealState *out, const SbSlidingTask *task, SbReport *report);
-  // Computes the values at rest of a sliding state that solve() has omitted; NULL: it never does.
+  // Computes the values at rest of a sliding state that solve() has omitted; NULL: solve() never
+  // omits them.
   SbStatus (*rest)(SbSealState *out, const SbSlidingTask *task, SbReport *report);
-  // Takes the asperities' results from a film that was solved with asperities in it, on the fitted
-  // body if `fitted`; NULL: no film has any.
+  // Sets lambda, real area, asperities' fraction of the load and kinetic friction from `film`,
+  // which was solved with asperities in it, on the fitted body if `fitted`, else on the half-plane.
+  // NULL: films of this row have no asperities in them.
   void (*take)(SbSealState *out, const SbModel *model, const SbFilm *film, bool fitted);
-  // sb_sliding_respeed().
+  // Replaces film and kinetic friction by those at task->speed, which differs from the state's in
+  // its magnitude only (sb_sliding_respeed()). `body`: body of the state's film; NULL: half-plane.
   SbStatus (*respeed)(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,
                       SbReport *report);
-  // Computes lambda, real area and kinetic friction from film_central, in the full form; may change
-  // the values at rest. See sb_sliding_refilm().
+  // Computes lambda, real area and kinetic friction from film_central, which the caller has set. If
+  // `shares` and the film is no closed form, `roughness` is 1 and the caller has set
+  // real_area_share, boundary_load and friction_viscous too. Friction is the full one, of which a
+  // dragged section may carry only a part. May change the values at rest.
   SbStatus (*refilm)(SbSealState *state, const SbSlidingTask *task, double roughness,
                      SbReport *report);
-  // The same, with the values at rest and static friction. See sb_sliding_resurface().
+  // Does the same as refilm(), and computes the values at rest and static friction.
   SbStatus (*resurface)(SbSealState *state, const SbSlidingTask *task, double roughness,
                         SbReport *report);
-  // sb_sliding_update_errors(), after the error of the net load.
+  // Computes the errors of film, asperities and friction from those of the contact: load_error,
+  // net_error, width_error and peak_error. The memory has fit and film of the state.
   SbStatus (*update_errors)(SbSealState *out, const SbSlidingTask *task, SbReport *report);
-  // Warns that the section of a solved state bears less than its friction.
+  // Warns that the section of a solved state, which rolls or jams (`section`), carries less than
+  // its friction.
   void (*warn_limit)(SbWarnings *warnings, const SbSlidingTask *task, const SbSealState *state);
-  // Returns the gap [m] outside a dry contact of the half-width `half` [m], at the distance
-  // x >= half from its middle, x = `over` times half.
+  // Returns the gap [m] next to a dry contact of the half-width `half` [m], at the distance `over`
+  // times `half` from the middle of the contact; over >= 1.
   double (*dry_gap)(const SbModel *model, int seal, double over, double half);
 } SbContactLaw;
 

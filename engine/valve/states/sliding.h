@@ -164,8 +164,10 @@ const SbRing *sb_sliding_ring_of(const SbSlidingTask *task);
 // is a result, too: touches is false.
 //
 // SB_ERROR_NOT_CONVERGED: a solver failed; values computed before are set, all others are NaN, and
-// the report names solver and cause. SB_ERROR_CANCELLED: the polled function returned true. Other
-// errors of sb_fit_solve().
+// the report names solver and cause. SB_ERROR_CANCELLED: the polled function returned true.
+// SB_ERROR_RANGE, SB_ERROR_INPUT: a value is out of the range of the models of fit, film or
+// surface; SB_ERROR_INFEASIBLE: fit or film has no solution. After any error other than
+// SB_ERROR_NOT_CONVERGED *out is unspecified.
 SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
 // Prefetch: solves the ring that sb_sliding_solve() with the memory `like` would solve first for
@@ -175,8 +177,8 @@ SbStatus sb_sliding_solve(SbSealState *out, const SbSlidingTask *task, SbReport 
 // start.
 void sb_sliding_prefetch(const SbSlidingTask *task, const SbSlidingMemory *like);
 
-// Lets the next task of `memory` take its first ring from `ahead` (borrowed), the task->memory of
-// sb_sliding_prefetch(). NULL: it solves all rings itself.
+// Lets the next task of `memory` take its first ring from `ahead` (borrowed until that task is
+// evaluated), the task->memory of sb_sliding_prefetch(). NULL: it solves all rings itself.
 void sb_sliding_memory_prefetched(SbSlidingMemory *memory, SbSlidingMemory *ahead);
 
 // Computes the fit only: ends of the contact, loads and peak pressure. They equal those of
@@ -188,8 +190,9 @@ SbStatus sb_sliding_fitment(SbSealState *out, const SbSlidingTask *task, SbRepor
 // compliance (of a ring by static condensation, ring.h) and the gap for which the dry contact has
 // the pressure of `fit`. If the compliance of a ring cannot be used, that of a disc replaces it,
 // with the warning "film-disc-surface". Writes the net load of this dry contact to *load [N/m].
-// `pressure` is that of the fit. `warnings` may be NULL. SB_ERROR_INPUT: other fit models, or a
-// contact that is too wide.
+// `pressure` is that of the fit. *out is plain data. SB_ERROR_INPUT, SB_ERROR_RANGE: other fit
+// models, or a contact that is too wide; SB_ERROR_INPUT, SB_ERROR_INFEASIBLE,
+// SB_ERROR_NOT_CONVERGED: no gap was found that has this dry contact.
 SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit *fit,
                             const SbModel *model, int seal, SbSealPressure pressure,
                             SbWarnings *warnings, SbReport *report);
@@ -197,8 +200,8 @@ SbStatus sb_sliding_surface(SbSurfaceCompliance *out, double *load, const SbFit 
 // Replaces film and kinetic friction of *state, solved by sb_sliding_solve() for a task that
 // differs in the magnitude of the speed only, by those at task->speed. `body` is sb_sliding_body()
 // after that solve (NULL: half-plane). The relative errors of the film are not changed, and no
-// warnings about it are added. SB_ERROR_NOT_CONVERGED: the film was not solved; *state is then
-// unspecified.
+// warnings about it are added. SB_ERROR_NOT_CONVERGED: the film was not solved. Other errors as
+// sb_sliding_solve(). *state is unspecified after an error.
 SbStatus sb_sliding_respeed(SbSealState *state, const SbSlidingTask *task,
                             const SbSlidingBody *body, SbReport *report);
 
@@ -209,15 +212,16 @@ void sb_sliding_film_of(SbFilmProblem *out, const SbSealState *state, const SbSl
 
 // Replaces the film of the solved `state` of `task` by `film`, and updates lambda, real area and
 // kinetic friction by sb_sliding_refilm() with `roughness` (with coupled asperities 1; the values
-// that sb_sliding_refilm() then requires are taken from `film`). `fitted`: the film was solved on
-// the fitted body. If the friction of this film cannot be computed, lambda, real area and kinetic
-// friction are NaN.
+// that sb_sliding_refilm() then requires are taken from `film`). `layer` and the errors of the film
+// are not changed. `fitted`: the film was solved on the fitted body. If the friction of this film
+// cannot be computed, lambda, real area and kinetic friction are NaN.
 void sb_sliding_set_film(SbSealState *state, const SbSlidingTask *task, const SbFilm *film,
                          bool fitted, double roughness);
 
 // Returns the speed [m/s], > 0, above which the supply alone determines the film of a solved state:
 // at higher speeds the film is that at this speed, and viscous friction is proportional to the
-// speed. INFINITY if the supply is not limited.
+// speed. INFINITY if the supply is not limited. `body` is that of the state's film (NULL:
+// half-plane).
 double sb_sliding_starved_speed(const SbSealState *state, const SbSlidingTask *task,
                                 const SbSlidingBody *body);
 
@@ -230,18 +234,21 @@ void sb_sliding_full_friction(SbSealState *state);
 // caller has set, for a surface `roughness` times as rough as the model's. With coupled asperities
 // `roughness` must be 1, and the caller sets real_area_share, boundary_load and friction_viscous
 // too, in the full form that sb_sliding_full_friction() gives. Values at rest are not changed.
-// After an error lambda, real area and kinetic friction are NaN.
+// SB_ERROR_RANGE: the model of the surface is not valid at this lambda or roughness. After an error
+// lambda, real area and kinetic friction are NaN.
 SbStatus sb_sliding_refilm(SbSealState *state, const SbSlidingTask *task, double roughness,
                            SbReport *report);
 
 // Changes a solved state to a surface `roughness` times as rough as the model's: real area, kinetic
 // and static friction. Solves nothing, because fit and film do not depend on roughness; not for
-// coupled asperities, whose film does. Errors as sb_sliding_refilm().
+// coupled asperities, whose film does. memory and counts of the task may be NULL. Errors as
+// sb_sliding_refilm(); the state is then unspecified. A state without contact is not changed.
 SbStatus sb_sliding_resurface(SbSealState *state, const SbSlidingTask *task, double roughness,
                               SbReport *report);
 
 // Returns the relative error of squeeze_out_time [1] of a state of the task's seal
-// (sb_breakaway_squeeze_error()); NaN: no memory.
+// (sb_breakaway_squeeze_error()). Only model, seal and memory of the task are used. NaN if memory
+// cannot be allocated.
 double sb_sliding_squeeze_error(const SbSealState *state, const SbSlidingTask *task);
 
 // Computes out[count] [Pa]: the part of the contact pressures p[count] [Pa] (above the fluid
@@ -253,7 +260,6 @@ SbStatus sb_sliding_edge_asperities(double *out, const double *p, size_t count,
 // Sets *out to the film problem of a seal on the half-plane without asperities (thesis sections 5.2
 // and 7.1): from the net load `load_net` [N/m], the sliding speed `speed` [m/s] (sign as
 // SbSlidingTask; the entrainment speed is half of it), the pressures, and the model's reduced
-// modulus, radius and fluid. out->model, the film model, is the default of sb_film_problem_init();
-// the caller may change it.
+// modulus, radius and fluid. out->model, the film model, is reynolds; the caller may change it.
 void sb_sliding_film_problem(SbFilmProblem *out, const SbModel *model, int seal,
                              SbSealPressure pressure, double load_net, double speed);

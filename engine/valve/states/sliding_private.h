@@ -76,15 +76,16 @@ typedef struct {
 // Parts of a solution: all, fit without its surface, or surface and films.
 typedef enum { SB_SOLUTION_WHOLE, SB_SOLUTION_FITMENT, SB_SOLUTION_FILMS } SbSolutionPart;
 
-// Adds `by` times the numbers of a part of one solution to those of another.
+// Adds `by` times the numbers of a part of `from` to those of *out.
 void sb_solution_add(SbSlidingSolution *out, double by, const SbSlidingSolution *from,
                      SbSolutionPart part);
 
-// Sets a solution from the last task of a memory.
+// Sets *out to the results of the last task of `memory`.
 void sb_solution_take(SbSlidingSolution *out, SbSlidingMemory *memory);
 
-// Returns whether two states were solved in the same way, or, with `fitment`, their fits without
-// surfaces were, so that both may be terms of a sum.
+// Returns whether two solutions have the same structure (contact, state of the ring, films, numbers
+// of values), so that both may be terms of a sum. With `fitment` only their fits without surfaces
+// are compared.
 bool sb_solution_alike(const SbSlidingSolution *a, const SbSlidingSolution *b, bool fitment);
 
 // Returns the memory's film with index `i` below SB_SLIDING_FILMS; borrowed.
@@ -164,7 +165,7 @@ struct SbSlidingMemory {
 };
 
 // Moves the solved ring of `way` to memory->stored, if memory->stores and there is one in contact
-// and sliding. Does nothing if there is no space or memory.
+// and sliding. Does nothing if no place is free or memory cannot be allocated.
 void sb_sliding_store(SbSlidingMemory *memory, int way);
 
 // Returns whether friction drags this seal's section: that of a ring while it slides.
@@ -180,7 +181,7 @@ bool sb_sliding_usable(SbStatus status);
 
 // Clears *out and sets contact and loads from the fit. A ring is dragged by `law`; NULL: reuse the
 // fit of the memory if seal and pressure are equal, else fit without drag. *known: there is a
-// contact; if false the state is complete.
+// contact; if false there is nothing to add to the state (no contact, or an error).
 SbStatus sb_sliding_fit_contact(const SbSlidingTask *task, const SbSlidingLaw *law,
                                 SbSealState *out, bool *known, SbReport *report);
 
@@ -224,10 +225,11 @@ void sb_sliding_guess(SbSlidingLaw *law, const SbSlidingTask *task, SbSlidingFit
 SbSlidingLaw sb_sliding_first_law(const SbSlidingTask *task, SbSlidingFitment *on,
                                   const SbSlidingStart *start);
 
-// Fails for a ring that the base does not have, with SB_ERROR_NOT_CONVERGED, and clears the fit.
+// Clears the fit and returns SB_ERROR_NOT_CONVERGED: memory->from has no stored state for the
+// task's ring.
 SbStatus sb_sliding_no_tangent(const SbSlidingTask *task, SbSlidingFitment *on, SbReport *report);
 
-// Discards the memory's fit of the task's way.
+// Discards the memory's fit of the task's way and its values at rest.
 void sb_sliding_forget_fitment(const SbSlidingTask *task);
 
 // Computes fit, film and friction of a task; solves what memory->sums does not have. `law` as for
@@ -261,12 +263,14 @@ bool sb_sliding_has_film(const SbSlidingTask *task);
 SbStatus sb_sliding_solve_film(const SbSlidingTask *task, SbSealState *out, SbReport *report);
 
 // Computes the film with asperities in it under a net load [N/m] at a speed [m/s] (0: dry contact),
-// into *out, on the fitted body, or on the half-plane if that fails.
+// on the fitted body, or on the half-plane if that fails. `out` is plane, fitted or rest of the
+// task's memory.
 SbStatus sb_sliding_solve_rough(const SbSlidingTask *task, SbSlidingSolved *out, double load_net,
                                 double speed, SbReport *report);
 
-// Sets film_min, film_central, layer, and their errors in *out from `solved`, whose solver returned
-// `status`. Returns false, and leaves them NaN, if the solver has no solution.
+// Sets film_fitted, film_min, film_central, layer, and the errors of both films in *out from
+// `solved`, whose solver returned `status`. Returns false, and changes nothing, if the solver has
+// no solution.
 bool sb_sliding_read_film(SbSealState *out, const SbSlidingSolved *solved, SbStatus status,
                           const SbFit *fit);
 
@@ -290,17 +294,18 @@ void sb_sliding_limit_law(SbSealState *out, const SbSlidingTask *task);
 // it.
 void sb_sliding_kinetic_errors(SbSealState *out, double borne);
 
-// Solves `problem` into *out: from memory->sum, on the mesh of memory->base, or on a mesh of its
-// own.
+// Solves `problem` into *out, which is plane, fitted or rest of the task's memory: from
+// memory->sum, on the mesh of memory->base, or on a mesh of its own.
 SbStatus sb_sliding_solve_on(const SbSlidingTask *task, SbSlidingSolved *out,
                              const SbFilmProblem *problem, SbReport *report);
 
-// Multiplies the friction of a dragged ring by the fractions that its section carries, borne_share
-// and area_cut, which must be set; NaN: does nothing.
+// Multiplies real area, friction and their errors of a dragged ring by the fractions that its
+// section carries, borne_share and area_cut, which must be set. Computes static friction again.
+// Does nothing if borne_share is NaN.
 SbStatus sb_sliding_share_out(SbSealState *out, const SbSlidingTask *task, SbReport *report);
 
-// Computes the state of a sliding ring: ring and film in turns, until the friction that drags the
-// ring is that of its own film.
+// Computes the state of a task with sb_sliding_drags(): ring and film in turns, until the friction
+// that drags the ring is that of its own film.
 SbStatus sb_sliding_drag(const SbSlidingTask *task, SbSealState *out, SbReport *report);
 
 // ---- Steps of several rows
@@ -312,8 +317,9 @@ SbStatus sb_sliding_set_static(SbSealState *out, const SbSlidingTask *task, SbRe
 // Sets static_error from the errors of real area at rest, width and load.
 void sb_sliding_set_static_error(SbSealState *out);
 
-// Warns that the default shear strength was determined with another model of the surface, which has
-// a smaller real area than `share`.
+// Warns, if the surface is Persson's and friction.shear_strength is the default of the set thesis,
+// that this default was determined with another model of the surface, which has a smaller real area
+// than `share`.
 void sb_sliding_warn_strength(const SbSlidingTask *task, double share);
 
 // Handles the `status` of a film, with its report `own`. A film that cannot exist because the fluid
@@ -325,9 +331,18 @@ SbStatus sb_sliding_opened_by_fluid(SbSealState *out, SbStatus status, const SbR
 // Returns "on the in-stroke" or "on the return", by the task's speed; static.
 const char *sb_sliding_stroke(const SbSlidingTask *task);
 
-// ---- Functions of rows (contact_law.h), with the comments of its members. sb_ring_...: both rows
-// of rings; sb_separate_... (sliding_separate.c) and sb_coupled_... (sliding_coupled.c): one of
-// them; sb_edge_...: gaskets (sliding_gasket.c).
+// ---- Functions of rows (contact_law.h). sb_ring_...: both rows of rings; sb_separate_...
+// (sliding_separate.c) and sb_coupled_... (sliding_coupled.c): one of them; sb_edge_...: gaskets
+// (sliding_gasket.c).
+//   solve          film, rough contact and friction of a state whose contact and loads are set
+//   rest           the values at rest that solve() has omitted
+//   take           asperities' results and kinetic friction from a film with asperities in it
+//   respeed        replaces film and kinetic friction of a state by those at task->speed
+//   refilm         lambda, real area and kinetic friction from film_central
+//   resurface      as refilm, with the values at rest and static friction
+//   update_errors  errors of film, asperities and friction from those of the contact
+//   warn_limit     warns that a section which rolls or jams carries less than its friction
+//   dry_gap        gap [m] next to a dry contact, at `over` times `half` from its middle
 
 // SbContactLaw.respeed.
 SbStatus sb_ring_respeed(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,

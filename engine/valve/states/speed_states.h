@@ -54,7 +54,8 @@ typedef struct {
 typedef struct {
   SbSlidingTask task; // of the reference state, with its speed and direction
   SbSealState base;   // the reference state
-  double roughness;   // roughness divided by the model's; 1 after the initialisation
+  double roughness;   // roughness divided by the model's; 1 after the initialisation, and
+                      // always with coupled asperities
   bool on_body;       // the film is on `body`
   SbSlidingBody body;
   bool near; // only speeds near the reference will be requested; cells are half a decade wide
@@ -68,7 +69,8 @@ typedef struct {
   double error;          // relative error of the films: their largest deviation in a used cell, or
                          // that of the parabola
   double friction_error; // relative error of the friction that remains with cubic or parabola
-  // SB_ERROR_CANCELLED or _MEMORY: ended early; later results use what is available.
+  // SB_OK; or SB_ERROR_CANCELLED, _MEMORY: a solve ended early; later results use what is
+  // available.
   SbStatus status;
   size_t nodes, cells;
   SbSpeedNode node[SB_SPEED_NODES];

@@ -5,8 +5,9 @@
 
 // X(enumerator, name in study files, text for people): all conditions.
 //   machine     quasi-static cycle of the test machine; ports become a vented chamber
-//   outer-seal  both seals have the sizes and modulus of the scene's outer ring after storage, and
-//               no further storage; the chamber is filled; not for gaskets
+//   outer-seal  both seals have the scene's outer ring as it is after storage at the temperature of
+//               use (sizes, modulus), without further storage or expansion; the chamber is filled;
+//               not for gaskets
 //   saturated   canister pressure, viscosity and density follow from fluid.name
 #define SB_HOLDS(X)                                                                                \
   X(SB_HOLD_MACHINE, "machine",                                                                    \
@@ -32,6 +33,7 @@ const char *sb_hold_names(void);
 SB_CHECKED bool sb_hold_from_name(SbHold *out, const char *name);
 
 // Creates the model of `scene` under the condition `hold`; free it with sb_model_destroy().
-// SB_ERROR_INPUT with the input valve.kind: SB_HOLD_OUTER of a gasket valve; other errors of
-// sb_model_derive().
+// SB_ERROR_INPUT with the input valve.kind: SB_HOLD_OUTER of a gasket valve. SB_ERROR_RANGE,
+// SB_ERROR_INPUT: the scene's values are inconsistent under the condition; the report has the
+// input.
 SbStatus sb_model_hold(SbModel **out, const SbModel *scene, SbHold hold, SbReport *report);

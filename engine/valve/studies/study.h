@@ -184,6 +184,7 @@ size_t sb_study_extra(const SbParamId **out, SbStudyKind kind);
 // budget of output.work_limit solver steps, the curves have a gap there, a warning states why,
 // `complete` is false, and the function returns SB_OK. SB_ERROR_INPUT: `kind` is outside the
 // enumeration. SB_ERROR_INFEASIBLE: the scene lacks what the study needs; the report has the input.
-// SB_ERROR_CANCELLED; errors of sb_model_hold(). After an error *out is not a complete study.
+// SB_ERROR_RANGE, SB_ERROR_INPUT: the scene's values are inconsistent under the conditions of the
+// study; the report has the input. SB_ERROR_CANCELLED. After an error *out is not a complete study.
 SbStatus sb_study_view(SbStudy *out, SbStudyKind kind, const SbModel *model,
                        const SbStudyGrid *grid, const SbStudyHooks *hooks, SbReport *report);

@@ -106,8 +106,8 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
                   const SbOverride *override, size_t overrides);
 
 // Asks `evaluator` the question (sb_evaluator_ask()) within the study's budget and with its
-// cancellation: the members work_used, cancelled and data of `question` are ignored. The study ends
-// if the status is SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
+// cancellation: the members work_used, cancelled and data of `question` are ignored. Returns the
+// status of sb_evaluator_ask(); the study ends if it is SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
 SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evaluator,
                            const SbQuestion *question, SbReport *report);
 
@@ -115,7 +115,8 @@ SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evalua
 // study is not complete.
 void sb_study_gap(SbStudy *out, double x, const char *why);
 
-// Warns that points have no value: "HEAD: WHY". The code of the warning ends with `what`.
+// Warns that points have no value: "HEAD: WHY". The code of the warning is "study-gap-WHAT";
+// `input` is the number of the input at fault (SbReport.input), 0: none.
 void sb_study_miss(SbStudy *out, const char *what, int input, const char *head, const char *why);
 
 // Returns the net load per length of the outer seal of work->base without friction, under its
@@ -160,7 +161,9 @@ void sb_study_curves(SbStudyWork *work, SbStudyStyle style, const char *name, in
 // speed [m/s].
 void sb_study_film_problem(SbFilmProblem *out, SbStudyWork *work, double load, double speed);
 
-// Solves a film problem into work->film, starting from the last film, and reports progress.
+// Solves a film problem into work->film, starting from the last film, and reports progress. Returns
+// the status of sb_film_solve(), SB_ERROR_NOT_CONVERGED if the budget is exhausted, or work->status
+// if the study has ended.
 SbStatus sb_study_film(SbStudyWork *work, const SbFilmProblem *problem, SbReport *report);
 
 // Computes the grid's rows value[rows][columns], stores their figures at the places line[rows],
@@ -171,8 +174,9 @@ void sb_study_answer_rows(SbStudyWork *work, const double *value, const int *lin
 // Reports progress, `fraction` 0 to 1, and ends the study if it is cancelled.
 void sb_study_step(SbStudyWork *work, double fraction);
 
-// Stores `status` and `report` of work other than sb_study_ask(), if it is the first error. Returns
-// whether the study continues: work->status is SB_OK.
+// Stores `status` and `report` (NULL only if the status is SB_ERROR_CANCELLED) of work other than
+// sb_study_ask(), if it is the first error. Returns whether the study continues: work->status is
+// SB_OK.
 bool sb_study_goes_on(SbStudyWork *work, SbStatus status, const SbReport *report);
 
 // Adds a table row with a formatted name and values NaN, and returns it, borrowed. Does not fail,
