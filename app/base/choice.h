@@ -13,7 +13,8 @@ typedef struct {
   size_t remedy; // number of bytes at the end of the message that state the remedy
 } SbChoice;
 
-// Sets a choice to copies of `key` and of the values, one a line of `values`; NULL: no values.
+// Sets a choice to copies of `key` (may be NULL: no choice) and of the values, one a line of
+// `values`; NULL: no values, "": the one value "".
 void sb_choice_init(SbChoice *choice, const char *key, const char *values, size_t remedy);
 
 // Sets a choice to a copy of `from`.
@@ -28,9 +29,12 @@ char *sb_choice_problem(const SbChoice *choice, const char *message);
 // ---- Words for the columns of a table ----
 // A layout has a word for each column, "time, -, force"; "-" stands for none.
 
-// Writes `word` for a column, from 1, into *layout, which is replaced; 0: changes nothing.
+// Writes `word` ("": "-") for a column, from 1, into the layout; columns that the layout does not
+// have yet become "-". Frees *layout, a string of g_malloc(), and sets it to the new layout. Column
+// 0 changes nothing.
 void sb_choice_place(char **layout, size_t column, const char *word);
 
-// Returns the layouts, one a line, with each of `words` (one a line) in each of the columns, or
-// NULL without columns: bit k of `columns` is that of column k + 1. Freed by g_free().
+// Returns one layout a line: for each column whose bit is set (bit k of `columns`: column k + 1)
+// and for each of `words` (one a line), a copy of `layout` with this word in this column. NULL if
+// no bit is set. Freed by g_free().
 char *sb_choice_layouts(const char *layout, guint64 columns, const char *words);

@@ -15,22 +15,23 @@ typedef struct {
 
   SbParamId across, up; // parameters on the axes of a new map of designs
 
-  const char *seal[SB_SEAL_COUNT];       // "Inner seal"
-  const char *short_name[SB_SEAL_COUNT]; // "inner"
-  const char *friction[SB_SEAL_COUNT];   // of the seal, among the forces on the stem
-  const char *off[SB_SEAL_COUNT];        // why the seal has no load now
+  // By seal, [SB_OUTER] and [SB_INNER].
+  const char *seal[SB_SEAL_COUNT];       // its name, "Outer seal"
+  const char *short_name[SB_SEAL_COUNT]; // "outer"
+  const char *friction[SB_SEAL_COUNT];   // label of its friction among the forces on the stem
+  const char *off[SB_SEAL_COUNT];        // text shown while the seal has no load
   // What moves while the velocity of the frame is positive [0] and negative [1].
   const char *moves[2];
   // What happens after a stage until the next one; NULL: the contacts of the frames decide.
   const char *phase[SB_STAGE_COUNT];
 
-  const char *loop;    // "Force and displacement"
-  const char *axes;    // its units
-  const char *force;   // force of a frame
+  const char *loop;    // title of the chart of the force, "Force and displacement"
+  const char *axes;    // units of the axes of this chart, "N over mm"
+  const char *force;   // label of the force of a frame
   const char *picture; // what the section's view shows; NULL: the valve
 } SbDevice;
 
-// Returns the row of a choice of valve.kind; static.
+// Returns the row of a valve of `kind`, the index of a choice of the parameter valve.kind; static.
 const SbDevice *sb_device_of_kind(int kind);
 
 // Returns the row of a model (NULL: the valve with rings); static.

@@ -64,8 +64,10 @@ int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_
 const char *sb_figure_compared_unit(int index, double value);
 
 // Writes the value of design `at` (from 0) of `count`, and its difference from the first design
-// with a sign ("" for the first design, for a figure that is yes or no, and where one of the two is
-// not known), with the decimals of sb_figure_compared_decimals(), in plain ASCII without the unit.
-// Both texts have SB_FORMAT_MAX bytes. Returns the unit, static; "" where there is no number.
+// with a sign, with the decimals of sb_figure_compared_decimals(), in plain ASCII without the unit.
+// A value that is not known is "-", that of a figure without digits "yes" or "no". The difference
+// is "" for the first design, for a figure that is yes or no, and where one of the two is not
+// known. Both texts have SB_FORMAT_MAX bytes. Returns the unit, static; "" where the value is not a
+// number.
 const char *sb_figure_compared(char *value, char *change, int index, const SbFigureCompared *design,
                                size_t count, size_t at);

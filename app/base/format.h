@@ -13,17 +13,18 @@ typedef enum {
   SB_QUANTITY_NUMBER,   // no unit
   SB_QUANTITY_FORCE,    // N
   SB_QUANTITY_LENGTH,   // mm
-  SB_QUANTITY_FILM,     // nm or um
+  SB_QUANTITY_FILM,     // nm or µm
   SB_QUANTITY_PRESSURE, // MPa
   SB_QUANTITY_ENERGY,   // mJ
   SB_QUANTITY_TIME,     // s
   SB_QUANTITY_SPEED,    // mm/s
-  SB_QUANTITY_VOLUME,   // pl, nl or ul
-  SB_QUANTITY_FRACTION, // percent
+  SB_QUANTITY_VOLUME,   // pl, nl or µl
+  SB_QUANTITY_FRACTION, // %
   SB_QUANTITY_COUNT
 } SbQuantity;
 
-// Returns the display unit of `value` [SI] of a quantity, "nm" or "µm" by its size. Static.
+// Returns the display unit of `value` [SI] of a quantity, that of a film or volume by its size; ""
+// for SB_QUANTITY_NUMBER. Static.
 const char *sb_quantity_unit(SbQuantity quantity, double value);
 
 // Size of a buffer for a formatted number [bytes].
@@ -36,7 +37,8 @@ typedef struct {
 } SbFormatted;
 
 // Writes number and unit of `value` [SI]. `relative_error` is an estimate of its relative error; 0
-// or NaN: none. NaN and infinity become an en dash with the unit.
+// or NaN: none. NaN and infinity become an en dash with the unit. A force below 0.5 mN, which is
+// rounding noise, is "0".
 void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relative_error);
 
 // Writes number and unit with a no-break space, "27.4 N".

@@ -30,15 +30,16 @@ enum { SB_ISSUES_MAX = 100 };
 bool sb_issues_add(GPtrArray *issues, const char *file, int line, const char *key,
                    const char *allowed, const char *format, ...) G_GNUC_PRINTF(6, 7);
 
-// As sb_issues_add(), for a problem that one of the values of `key` resolves: `values`, one a
-// line. With `remedy`, the text ends with ": specify it, as in KEY = VALUE" with the first value;
-// without, the values are the allowed range.
+// As sb_issues_add(), for a problem that one of the values of `key` resolves: `values`, one a line
+// (NULL with `key` NULL: no choice). With `remedy`, the text ends with ": specify it, as in KEY =
+// VALUE" with the first value; without, the values are the allowed range.
 bool sb_issues_add_choice(GPtrArray *issues, const char *file, int line, const char *key,
                           const char *values, bool remedy, const char *format, ...)
     G_GNUC_PRINTF(7, 8);
 
-// Takes key and choice from the last issue, if it has a choice, for a file without keys: the file
-// itself must then have what `allowed` states. The list is not empty.
+// If the last issue has a choice, removes its key and its choice and sets its allowed range to
+// `allowed`: for a file without keys, which must itself have what `allowed` states. The list must
+// not be empty.
 void sb_issues_forget_key(GPtrArray *issues, const char *allowed);
 
 // Appends a formatted sentence to a list of char *.

@@ -5,7 +5,7 @@
 typedef struct {
   const char *word; // borrowed
   const char *best; // most similar name so far; NULL: none is similar
-  int least;        // number of edits between both
+  int least;        // number of edits between `word` and `best`
 } SbNearest;
 
 // Returns a search for `word` without a name.

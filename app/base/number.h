@@ -28,7 +28,7 @@ int sb_number_compare(const void *a, const void *b);
 double sb_number_median(double *value, size_t count);
 
 // Writes a finite `value` with the fewest of 1 to 17 significant digits that read back exactly, a
-// point as decimal mark and an exponent only where that is shorter to read: 0.00161, 2.5e+06.
+// point as decimal mark, and an exponent below 1e-5 and from 1e16 on: 0.00161, 2500000, 2.5e-06.
 // Returns `text`. A value that is not finite becomes "nan", "inf" or "-inf".
 char *sb_number_format(char text[SB_NUMBER_SIZE], double value);
 

@@ -57,8 +57,9 @@ typedef struct {
 // refused, or with SB_APP_ERROR_IO; *out then owns nothing.
 bool sb_output_begin(SbOutput *out, const char *path, GError **error);
 
-// Flushes and syncs, which detects a full disk; the file has no name yet. After a failure the
-// unfinished file is removed and *out owns nothing.
+// Flushes and syncs, which detects a full disk before sb_output_commit() (which does both again);
+// the file does not have its name yet. After a failure the unfinished file is removed and *out owns
+// nothing.
 bool sb_output_seal(SbOutput *out, GError **error);
 
 // Flushes, syncs and gives the file its name. *out owns nothing afterwards. After a failure the
@@ -92,8 +93,9 @@ typedef struct SbOutputFolder SbOutputFolder;
 bool sb_output_folder_open(SbOutputFolder **out, const char *path, const char *command,
                            GError **error);
 
-// Begins the file `name` in the folder. *stream is borrowed; write to it before the next call of a
-// function of the folder. After a failure the folder and its other files can still be used.
+// Begins the file `name` (without a path) in the folder. *stream is borrowed; write to it before
+// the next call of a function of the folder. After a failure the folder and its other files can
+// still be used.
 bool sb_output_folder_add(FILE **stream, SbOutputFolder *folder, const char *name, GError **error);
 
 // Adds a file with a text (sb_output_folder_add()).
@@ -119,7 +121,8 @@ void sb_output_folder_close(SbOutputFolder *folder);
 typedef bool (*SbOutputFill)(SbOutputFolder *folder, void *data, GError **error);
 
 // Writes a folder as one result: opens it, calls `fill` once with `data`, commits, finishes with
-// `kept`, and closes it.
+// `kept`, and closes it. `command` and `kept` may be NULL, as in the functions above. If a step
+// fails, the remaining ones are omitted and the folder is closed.
 bool sb_output_folder_write(const char *path, const char *command, SbOutputFill fill, void *data,
                             GPtrArray *kept, GError **error);
 
@@ -130,9 +133,10 @@ typedef struct {
   GPtrArray *targets; // identities of the targets checked so far
 } SbOutputCheck;
 
-// Returns whether `path` can be written. Fails with SB_APP_ERROR_INPUT if it is an input or a
-// target that was checked before, and with SB_APP_ERROR_IO if its folder is not writable.
-// `makes_folder`: missing folders will be created. NULL and "-" can always be written.
+// Returns whether `path` can be written. Fails with SB_APP_ERROR_INPUT if it is an input, a target
+// that was checked before, or an existing file with sb_output_keep_existing(); with SB_APP_ERROR_IO
+// if it is a folder, or if it or its folder cannot be written. `makes_folder`: missing folders will
+// be created (else their absence is an error). NULL, "-", devices and pipes can always be written.
 bool sb_output_check(SbOutputCheck *check, const char *path, bool makes_folder, GError **error);
 
 // Frees what the checks own.

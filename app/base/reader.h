@@ -43,6 +43,7 @@ char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t by
 
 // Returns all groups and keys of the `length` bytes of a text, in their order, as a list of SbEntry
 // that owns its elements; freed by g_ptr_array_unref(), never NULL. Comments and empty lines are
-// skipped. Other lines, text that is not UTF-8 and duplicate keys and groups become issues in which
-// `shown` names the file; of a duplicate only its own line is omitted.
+// skipped. Other lines and duplicate keys and groups become issues in which `shown` names the file;
+// of a duplicate only its own line is omitted. A text that is not UTF-8 or contains a 0 is one
+// issue and gives an empty list.
 GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GPtrArray *issues);

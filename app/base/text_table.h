@@ -119,8 +119,8 @@ typedef struct {
 bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
                                GPtrArray *issues);
 
-// Reads a text that is one number with a decimal point, or with a comma where `decimal` is one or
-// where no thousands can be meant. Returns the number of bytes that were read; 0: none.
+// Reads the number at the start of `text`, with a decimal point, or with a comma if `decimal` is
+// ',' or no thousands can be meant. Returns the number of bytes read; 0, *out unchanged: no number.
 size_t sb_text_table_number_at(double *out, const char *text, char decimal);
 
 // Returns the usual spelling of a unit, as app/base/unit.h reads it: "Sek." is "s". NULL: not

@@ -13,7 +13,7 @@ typedef struct {
   SbTextTableEncoding encoding;
   char line_end;     // '\n', or '\r' for files without newlines
   size_t left;       // bytes that are not read yet
-  int number;        // of the line last read, from 1 behind sb_text_table_seek()
+  int number;        // of the line last read; the first one after sb_text_table_seek() is 1
   GString *line;     // that line
   const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
 } SbTextTableLines;
@@ -77,16 +77,16 @@ bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates);
 typedef struct {
   size_t cells;    // of a matrix all; else at most SB_TEXT_TABLE_COLUMNS_MAX
   size_t decimals; // number of digits behind each mark, with SB_TEXT_TABLE_PAIRS; else 0
-  guint64 numeric, clocks, texts;
-  unsigned saw; // marks of the numbers
+  guint64 numeric, clocks, texts; // bit k: cell k is a number, a time of day, a text
+  unsigned saw;                   // marks of the numbers
 } SbTextTableShape;
 
 // Returns the kinds of a line's cells in this dialect; of a comment or an empty line all 0.
 SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDialect *dialect);
 
-// Where a line is among the blocks of a file.
+// Where a line is among the blocks of a file. The caller sets (0) and frees `names`.
 typedef struct {
-  char *names; // the line of names above the block; NULL: none. Owned
+  char *names; // the line of names above the block; NULL: none. Freed by g_free()
   bool after_row, after_names;
 } SbTextTableBlock;
 

@@ -53,9 +53,9 @@ double sb_quantity_step(double value, const char *si, const char *shown, int pow
 char *sb_param_format(SbParamId id, double value);
 
 // Reads text of a file as a value of parameter `id` to *out [SI; index of a choice; bits of flags]
-// and checks kind, unit and range. Returns false with SB_APP_ERROR_RANGE (outside the range) or
-// SB_APP_ERROR_INPUT, whose sentence does not contain the key or the range; *out is then not
-// changed.
+// and checks kind, unit and range; a modulus of rubber can be a hardness (app/base/hardness.h).
+// Returns false with SB_APP_ERROR_RANGE (outside the range) or SB_APP_ERROR_INPUT, whose sentence
+// does not contain the key or the range; *out is then not changed.
 SB_CHECKED bool sb_param_parse(double *out, SbParamId id, const char *text, GError **error);
 
 // Returns the allowed range of a parameter: "0.2 to 20 mm", "thesis, reynolds".

@@ -59,7 +59,7 @@ typedef struct {
   double apart;        // largest gap in lines that close to no outline [m]; 0: none
 } SbCad;
 
-// What the caller states about a drawing. All zeros but the angle: as the file states.
+// What the caller states about a drawing. Initialise with zeros: as the file states, or as found.
 typedef struct {
   // Unit of the coordinates of a DXF or STL: any unit of length that udunits-2 knows ("mm",
   // "inch"); NULL: the unit that a DXF states, or the only one of mm, cm, inch, m and um in which

@@ -11,7 +11,7 @@ typedef struct {
   int line;
 } SbDxfItem;
 
-// A place in the text, and the pair that was read last, which calls set after the first three.
+// A place in the text (`next`, `end` and `separator`, set by the caller), and the last pair read.
 typedef struct {
   SbDxfItem next;  // remainder of the text
   const char *end; // of the text
@@ -28,7 +28,7 @@ enum { SB_DXF_X, SB_DXF_Y, SB_DXF_BULGE, SB_DXF_KNOT, SB_DXF_WEIGHT, SB_DXF_LIST
 typedef struct {
   char type[32], layer[256], line_type[256], name[256];
   double number[256];
-  double low, high;           // of z
+  double low, high;           // of z; INFINITY and -INFINITY: no z
   GArray *list[SB_DXF_LISTS]; // of double
 } SbDxfEntity;
 
@@ -52,9 +52,9 @@ static inline bool sb_dxf_is(const SbDxfEntity *entity, const char *type) {
   return strcmp(entity->type, type) == 0;
 }
 
-// Reads the pair with an entity's type and the pairs up to the next type (of a POLYLINE: up to the
-// end of its last VERTEX), which is the next pair then. Frees the lists that `entity` had. Returns
-// false at the end of the text, or with an error, which must not be NULL.
+// Reads an entity: from its type, the next pair of `reader`, up to the type after it (and after the
+// VERTEX entities of a POLYLINE), which is then the next pair. Frees the lists that `entity` had.
+// Returns false at the end of the text, or with an error; `error` must not be NULL, *error is NULL.
 bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error);
 
 // Returns the map that applies `in` first, then `out`.
@@ -63,6 +63,6 @@ SbDxfMap sb_dxf_after(const SbDxfMap *out, const SbDxfMap *in);
 // Returns a piece where the map puts it, as a piece with the same part of a circle.
 SbCadPiece sb_dxf_place(const SbDxfMap *way, const SbCadPiece *piece);
 
-// Appends the curves of an entity to `out` (of SbCadPiece) [m]. Returns false if it is of a type
-// that is not read, is not sound, or is too far away; `out` then contains a part of it.
+// Appends the curves of an entity, mapped by `way` to m, to `out` (of SbCadPiece). Returns false if
+// it is of a type that is not read, is not sound, or is too far away; `out` may then have a part.
 bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity);

@@ -31,7 +31,7 @@ typedef enum {
 } SbHow;
 
 // A cycle: rows `begin` to turn - 1 are the in-stroke, rows `turn` to end - 1 the return. `turn` is
-// the row of the largest displacement.
+// the row of the largest force among the rows around and within 0.3 % of the largest displacement.
 typedef struct {
   size_t begin, turn, end;
 } SbMeasuredCycle;
@@ -99,8 +99,8 @@ typedef struct {
 // sb_measured_free(). A list of cycles is an issue: sb_data_split() divides such a group first.
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
 
-// As sb_measured_load(), from the `length` bytes of a file; data->path is used for messages only.
-// NULL bytes: from the file.
+// As sb_measured_load(), from the `length` bytes of a file; data->path, which must not be NULL, is
+// used for messages only. NULL bytes: from the file.
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues);
 

@@ -16,7 +16,7 @@ static inline const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measure
   return &g_array_index(measured->cycle, SbMeasuredCycle, index);
 }
 
-// Returns the layout (choice.h) of the columns by the names of their channels, or by their units.
+// Returns the layout (app/base/choice.h) of the columns: names of channels or, with `units`, units.
 char *sb_measured_layout(const SbMeasured *measured, bool units);
 
 // Writes the dialect that keys choose; members without a key stay 0. Returns false with an issue

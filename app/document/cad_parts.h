@@ -30,14 +30,17 @@ void sb_cad_settings_init(SbCadSettings *settings);
 // Frees the strings.
 void sb_cad_settings_clear(SbCadSettings *settings);
 
-// Sets one choice from text. `name` is an option of `sealbench cad` without dashes: "unit", "axis",
-// "through", "angle", "join", "flip" ("yes", "no"), "shift", "density" or a part's name. Returns
-// false with SB_APP_ERROR_INPUT for an unknown name or a wrong text.
+// Sets one choice from text. `name` is an option of `sealbench cad` without dashes: "unit" ("mm"),
+// "axis" ("x", "y", "z" or "X,Y,Z"), "through" ("X,Y,Z" with units, else mm), "angle" ("30 deg"),
+// "join" (up to "1 mm"), "flip" ("yes", "no"), "shift" ("2 mm"), "density" ("1410 kg/m3") or a
+// part's name (number or name of the body). Returns false with SB_APP_ERROR_INPUT for an unknown
+// name or a wrong text; the value of this choice is then unspecified.
 bool sb_cad_choose(SbCadSettings *settings, const char *name, const char *text, GError **error);
 
-// Writes the index into cad->bodies for each part (-1: none): the chosen body, else the body whose
-// name is the part's, ignoring case and with blanks or hyphens for the underscore. Returns false
-// with SB_APP_ERROR_INPUT if a chosen body does not exist.
+// Writes the index into cad->bodies for each part (-1: none): the chosen body, else the first body
+// with a half-section whose name is the part's, ignoring case and with blanks or hyphens for the
+// underscore. Returns false with SB_APP_ERROR_INPUT if a chosen body does not exist or has no
+// half-section.
 bool sb_cad_parts(int body[SB_CAD_PART_COUNT], const SbCad *cad, const SbCadSettings *settings,
                   GError **error);
 

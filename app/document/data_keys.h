@@ -1,6 +1,6 @@
 // The groups [data] and [data NAME] of scenes and studies: a measured file each, and keys that
-// state what would otherwise be found in the data (app/data/measured.h explains the keys and reads
-// them). Here they are texts as in the file.
+// state what would otherwise be found in the data (docs/measured-data.md explains the keys,
+// app/data/measured.h reads the file). Here the keys are texts as in the file.
 #pragma once
 
 #include "app/base/issue.h"
@@ -88,7 +88,8 @@ void sb_data_free(gpointer data);
 // Returns a copy. Freed by sb_data_free().
 SbData *sb_data_copy(const SbData *data);
 
-// Returns whether both groups name the same file with the same keys, or are both NULL.
+// Returns whether both groups have the same file and the same keys, or are both NULL. A group must
+// have a path; names are not compared.
 bool sb_data_same(const SbData *a, const SbData *b);
 
 // Sets keys from `text`, lines "key = value" as sb_measured_keys() returns them. Keys that `text`

@@ -130,15 +130,15 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbModel, sb_model_destroy)
 
 // ---- Measured data ----
 
-// Returns the number of the document's own groups [data].
+// Returns the number of the document's own groups [data] and [data NAME].
 size_t sb_document_data_count(const SbDocument *document);
 
 // Returns group `index`, from 0.
 const SbData *sb_document_data(const SbDocument *document, size_t index);
 
-// Replaces the first group by `data`, which the document owns from now on (NULL: removes the
-// group). An edit that can be undone and is saved with the document. A file's path is written
-// relative to the document's folder.
+// Replaces the first group, under its name, by `data`, which the document owns from now on and
+// whose path must be set (NULL: removes the group). An edit that can be undone and is saved with
+// the document. A file's path is written relative to the document's folder.
 void sb_document_put_data(SbDocument *document, SbData *data);
 
 // ---- Limits and cases ----
@@ -221,8 +221,10 @@ const char *sb_document_remark(const SbDocument *document, SbRemarkKind kind, co
 double sb_document_bookmark(const SbDocument *document, size_t index);
 
 // Adds a bookmark or note, or changes the text of an existing one; `text` NULL removes it (also if
-// there is none: true). Returns false with SB_APP_ERROR_INPUT, without a change, if the name or the
-// text is not allowed or there are SB_REMARKS_MAX.
+// there is none: true). The text of a bookmark is a time from 0 with its unit ("1.25 s"). Returns
+// false with SB_APP_ERROR_INPUT, without a change, if the name (1 to 80 bytes; no "=", "[", "]" or
+// line end, no "#" at its start, no blank at its ends) or the text (at most 4000 bytes) is not
+// allowed or there are SB_REMARKS_MAX.
 SB_CHECKED bool sb_document_put_remark(SbDocument *document, SbRemarkKind kind, const char *name,
                                        const char *text, GError **error);
 
@@ -338,7 +340,8 @@ int sb_document_undo(SbDocument *document);
 int sb_document_redo(SbDocument *document);
 
 // Returns what sb_document_undo() (with `redo` sb_document_redo()) would change next; -1: nothing.
-// For a parameter, writes the values in force before and after the original edit [SI].
+// For a parameter, writes the values in force before [0] and after [1] the original edit [SI], else
+// nothing.
 int sb_document_next_undo(const SbDocument *document, bool redo, double value[2]);
 
 // Returns whether there is a step to undo.

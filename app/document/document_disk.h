@@ -25,7 +25,8 @@ const char *sb_document_file_text(const SbDocument *document);
 // has all values of `mine`. `path` NULL: an untitled document with the changes of `mine`.
 // If both sides changed a key to different values, that of `mine` applies and a line "group.key:
 // VALUE (in the file: VALUE)" is appended to `conflicts` (of char *; may be NULL). Returns NULL
-// with at least one issue if the file or `mine` cannot be read. Freed by sb_document_free().
+// with at least one issue if the file or `mine` cannot be read; other problems of either are issues
+// too, as by sb_document_load(). Freed by sb_document_free().
 SbDocument *sb_document_load_with(const char *path, const char *base, const char *mine,
                                   GPtrArray *conflicts, GPtrArray *issues);
 

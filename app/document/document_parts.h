@@ -65,5 +65,6 @@ void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
                    GPtrArray *issues, GPtrArray *notes);
 
 // Decides which outlines the section can draw (shapes->outlines), and appends a sentence to `notes`
-// (of char *) for each shape that it cannot. Call it once, after all files were read.
+// (of char *), in which `shown` names the document's file, for each shape that it cannot. Call it
+// once, after all files were read by sb_parts_read(): that of the valve first.
 void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes);

@@ -24,8 +24,9 @@ const SbEntry *sb_part_find(const SbPart *part, const char *name);
 void sb_part_complain(const SbPart *part, const char *name, const char *allowed, const char *format,
                       ...) G_GNUC_PRINTF(4, 5);
 
-// Returns the quantity `text` [`si`], whose default unit is `unit`, of key `name`. NaN with an
-// issue if it is not a quantity, or if `text` is NULL (missing).
+// Returns the quantity `text` [`si`], a number with a unit, of key `name`; `unit` is the unit that
+// the message of an issue proposes. NaN with an issue if it is not a quantity, or if `text` is NULL
+// (missing).
 double sb_part_quantity(const SbPart *part, const char *name, const char *text, const char *si,
                         const char *unit);
 

@@ -232,7 +232,7 @@ void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const
                            GPtrArray *issues);
 
 // Appends the changes (of SbChange) of group [pins] with which saving makes the file state the
-// pins.
+// pins. The caller frees the three strings of each by g_free().
 void sb_document_change_pins(GArray *changes, const SbDocument *document);
 
 // ---- Bookmarks and notes ----
@@ -249,7 +249,8 @@ void sb_document_remarks_clear(SbDocument *document);
 // Reads both groups from document->entries; `shown` names the file in issues.
 void sb_document_remarks_read(SbDocument *document, const char *shown, GPtrArray *issues);
 
-// Appends the changes (of SbChange) of both groups with which saving makes the file state them.
+// Appends the changes (of SbChange) of both groups with which saving makes the file state them. The
+// caller frees the three strings of each by g_free().
 void sb_document_change_remarks(GArray *changes, const SbDocument *document);
 
 // ---- Values ----
@@ -258,7 +259,7 @@ void sb_document_change_remarks(GArray *changes, const SbDocument *document);
 char *sb_document_problem_range(const SbProblem *problem, const SbParam *param);
 
 // Reads a value with unit, or a percentage of the value in force ("+5 %"), to *out [SI]. Returns
-// false with SB_APP_ERROR_INPUT.
+// false with SB_APP_ERROR_INPUT, or with SB_APP_ERROR_RANGE for a value outside its range.
 bool sb_document_read_value(double *out, const SbDocument *document, SbParamId id, const char *text,
                             GError **error);
 

@@ -13,6 +13,6 @@
 #define SB_PICTURE_BYTES_MAX ((size_t)256 << 20)
 #define SB_PICTURE_SCENE_MAX ((size_t)4000000)
 
-// Returns the text of the scene in the `length` bytes of a PNG that sb_still_write() wrote. NULL
-// with SB_APP_ERROR_INPUT if the bytes are not a PNG, contain no scene, or the scene is damaged.
+// Returns the text of the scene in the `length` bytes of a PNG that this program wrote. NULL with
+// SB_APP_ERROR_INPUT if the bytes are not a PNG, contain no scene, or the scene is damaged.
 char *sb_picture_find_scene(const void *data, size_t length, GError **error);

@@ -20,8 +20,9 @@ bool sb_seal_file_read(SbSealDrawing *out, double *height, const char *path, GEr
 // or one that sb_groove_draw() refuses. *out then has no points.
 bool sb_groove_file_read(SbGrooveDrawing *out, const char *path, GError **error);
 
-// Returns whether the text of the file `path` is a drawing: a DXF, STEP or STL, or a unit followed
-// by points.
+// Returns whether the file `path` with the content `text`, terminated by 0, is a drawing: its path
+// ends in .dxf, .step, .stp or .stl, or its text begins as that of a DXF or STEP, or with a unit of
+// length (a text of points).
 bool sb_seal_file_is_drawing(const char *text, const char *path);
 
 // Checks the drawing whose `length` bytes were read from `path`. *groove is set to whether it is a

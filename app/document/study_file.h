@@ -121,7 +121,8 @@ SbStudyFile *sb_study_file_of_model(const char *path, const SbModel *scene, GPtr
 
 // Returns the study of a design's scatter, method `reliability` with `samples` samples: the
 // tolerances of `study` vary about value[vary] (SI, in the order of study->vary) or, for other
-// parameters, about the scene's values. It borrows from `study`, which must outlive it.
+// parameters, about the scene's values; parameters of study->vary without a tolerance are fixed at
+// value[vary]. It borrows from `study`, which must outlive it. Freed by sb_study_file_free().
 SbStudyFile *sb_study_file_about(const SbStudyFile *study, const double *value, size_t samples);
 
 // Frees a study.

@@ -7,6 +7,7 @@
 enum { SB_TICKS_MAX = 12 };
 
 // A linear or logarithmic map from [lo, hi] to pixels [p0, p1]; p1 < p0 for an axis that points up.
+// lo < hi, and 0 < lo if it is logarithmic.
 typedef struct {
   double lo, hi, p0, p1;
   bool logarithmic;
@@ -15,8 +16,8 @@ typedef struct {
 // Ticks of one axis.
 typedef struct {
   int count;
-  int decimals;               // number of decimals that writes every value exactly
-  double step;                // between ticks; 0: a logarithmic axis
+  int decimals;               // that write every value exactly; 0 if `step` is 0
+  double step;                // between ticks; 0: powers of ten, or 1, 2 and 5 times those
   double value[SB_TICKS_MAX]; // [count], increasing, in the unit of the axis
 } SbTicks;
 
@@ -24,8 +25,9 @@ typedef struct {
 // finite increasing one; {0, 1} if there is none.
 void sb_axis_repair(double *lo, double *hi);
 
-// Returns the pixel of a value. Values outside of the range are extrapolated linearly, up to a
-// thousand ranges. On a logarithmic scale values <= 0 are far below the lower end. Never NaN.
+// Returns the pixel of a value. Values outside of the range are extrapolated up to a thousand
+// ranges. On a logarithmic scale, values more than ten ranges below the lower end, values <= 0 and
+// NaN are drawn ten ranges below it. On a linear scale the pixel of NaN is NaN.
 double sb_axis_at(const SbScale *scale, double value);
 
 // Returns the value of a pixel.
@@ -36,8 +38,8 @@ double sb_axis_value(const SbScale *scale, double pixel);
 void sb_axis_ticks(SbTicks *out, double lo, double hi, int wanted);
 
 // Writes the ticks of a logarithmic axis: decades, or every second or further decade on a long
-// range, or 1, 2 and 5 times powers of ten on a short one. A range that is not positive is
-// repaired.
+// range, or 1, 2 and 5 times powers of ten on a short one; below half a decade those of
+// sb_axis_ticks(), with a step. A range that is not positive is repaired.
 void sb_axis_log_ticks(SbTicks *out, double lo, double hi);
 
 // Extends [lo, hi] to multiples of the step that sb_axis_ticks() would use.
@@ -58,16 +60,17 @@ typedef struct {
   SbTickText x_text, y_text; // write the numbers; NULL: sb_axis_text()
   const char *x_name;        // quantity and unit of x, under the right end; NULL: none
   SbRect card;  // numbers and name of x stay between its left and right end; width 0: no limit
-  bool upright; // lines up the plot at the ticks of x, no lines across it
+  bool upright; // lines up the plot at the ticks of x in place of its lower end and short lines
   bool bare;    // no numbers of y: they are those of the plot on the left
   int minor;    // parts into which short lines divide each step of x; 0: none
 } SbAxes;
 
 // Sets the plot, and linear scales with the values x0 and x1 at its left and right end, y0 and y1
-// at its lower and upper end.
+// at its lower and upper end. Other members are not changed: initialise `axes` with {0} before.
 void sb_axes_linear(SbAxes *axes, SbRect plot, double x0, double x1, double y0, double y1);
 
-// Sets about `x` ticks of x and `y` ticks of y over the ranges of the scales; 0: none.
+// Sets about `x` ticks of x and `y` ticks of y over the ranges of the scales; 0: none. Of a
+// logarithmic scale any other number gives the ticks of sb_axis_log_ticks().
 void sb_axes_ticks(SbAxes *axes, int x, int y);
 
 // Returns the pixel of a point.

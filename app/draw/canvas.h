@@ -35,10 +35,10 @@ void sb_canvas_finish(SbCanvas *canvas);
 // Returns the theme's colour for a role.
 SbColor sb_canvas_role(const SbCanvas *canvas, SbRole role);
 
-// Sets the colour of cairo's source, with its opacity times `alpha`.
+// Sets the colour of cairo's source, with the opacity `alpha` in place of the colour's own.
 void sb_canvas_color(SbCanvas *canvas, SbColor color, double alpha);
 
-// Sets the line width [px], the dash (NULL: solid), butt caps and round joins.
+// Sets the line width [px] and the dash (NULL: solid).
 void sb_canvas_pen(SbCanvas *canvas, double width, const SbDash *dash);
 
 // Sets colour, width and dash of the lines that follow.
@@ -72,8 +72,8 @@ double sb_canvas_text_fit(SbCanvas *canvas, const char *text, const SbTextStyle 
 double sb_canvas_text_fit_ends(SbCanvas *canvas, const char *text, const SbTextStyle *style,
                                double x, double y, double width);
 
-// Draws text broken at words to lines of `width`, its top left corner at (x, y). Returns its
-// height.
+// Draws text broken at words to lines of `width` (at least 40 px), its top left corner at (x, y).
+// Returns its height.
 double sb_canvas_paragraph(SbCanvas *canvas, const char *text, const SbTextStyle *style, double x,
                            double y, double width);
 
@@ -124,10 +124,12 @@ void sb_canvas_hatch(SbCanvas *canvas, SbRect rect, double pitch, bool left, SbR
 // Adds the thinned polyline to cairo's current path without stroking it.
 void sb_canvas_path(SbCanvas *canvas, const SbPoint *point, size_t count);
 
-// Fills an arrowhead of 11 x 9 px (times `size`) with its tip at (x, y) and the direction (dx, dy).
+// Fills an arrowhead of 11 x 9 px (times `size`) in the present colour (sb_canvas_color()), with
+// its tip at (x, y) and the direction (dx, dy) of any length; draws nothing for the length 0.
 void sb_canvas_arrowhead(SbCanvas *canvas, double x, double y, double dx, double dy, double size);
 
-// Draws a dot of 3.4 px in the panel colour inside a ring of colour `ring`.
+// Draws a dot of radius 3.4 px in the panel colour inside a ring of colour `ring`, whose outer
+// radius is 5 px.
 void sb_canvas_ringed_dot(SbCanvas *canvas, double x, double y, SbColor ring);
 
 // Fills a dot of this radius [px] with its centre at (x, y).

@@ -5,7 +5,7 @@
 
 // Draws a piece of the line `stroke` and, in its colour, a name that ends at x = `right` with its
 // baseline at y and is cut in the middle to fit into `room` px, the line included. Returns the
-// width.
+// width of line and name together [px].
 double sb_legend_line(SbCanvas *c, double right, double y, double room, SbStroke stroke,
                       const char *name);
 

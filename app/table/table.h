@@ -26,7 +26,7 @@ typedef enum { SB_CELL_ABSENT, SB_CELL_TEXT, SB_CELL_NUMBER, SB_CELL_ANSWER } Sb
 // to a table.
 typedef struct {
   SbTableCellKind kind;  // ABSENT: an empty cell, and no member in JSON
-  double number;         // NaN: an empty cell, null in JSON; of an answer 0 no, 1 yes
+  double number;         // NaN: empty in CSV, null in JSON, "-" in text; of an answer 0 no, 1 yes
   const char *text;      // in files; NULL: an empty cell, null in JSON
   const char *shown;     // for people; NULL: `text`, or the number
   const char *si, *unit; // of a number in files and for people, static; NULL: as it is
@@ -39,7 +39,7 @@ static inline SbTableCell sb_cell_text(const char *text) {
   return (SbTableCell){.kind = SB_CELL_TEXT, .text = text};
 }
 
-// Returns a cell with a number; NaN: an empty one.
+// Returns a cell with a number; NaN: not known.
 static inline SbTableCell sb_cell_number(double number) {
   return (SbTableCell){.kind = SB_CELL_NUMBER, .number = number};
 }
@@ -108,7 +108,7 @@ void sb_table_add(SbTable *table, const SbTableCell *cells);
 // The cells of a row for sb_table_add().
 #define SB_CELLS(...) ((const SbTableCell[]){__VA_ARGS__})
 
-// Marks the last row.
+// Marks the row that was added last, which must exist.
 void sb_table_mark(SbTable *table, SbTableMark mark);
 
 // Adds a line between the rows: a subheading, in text and reports alone.
@@ -137,7 +137,7 @@ static inline void sb_csv_put(FILE *stream, SbTableCell cell) {
   sb_csv_cell(stream, &cell);
 }
 
-// Writes a row of CSV. Errors of writing remain in the stream (ferror()).
+// Writes a row of CSV with its line end. Errors of writing remain in the stream (ferror()).
 void sb_csv_row(FILE *stream, const SbTableCell *cells, size_t count);
 
 // Writes the headings and the rows of CSV, in UTF-8 with a point in numbers in every locale.
@@ -150,7 +150,7 @@ void sb_json_cell(SbJson *json, const char *key, const SbTableCell *cell);
 // an object that are named by its texts.
 void sb_table_json(SbJson *json, const char *key, const SbTable *table);
 
-// Returns the table as HTML, numbers with the class "n". Freed by g_free().
+// Returns the table as an HTML element <table>, numbers with the class "n". Freed by g_free().
 char *sb_table_html(const SbTable *table);
 
 // Returns the table as Markdown. Freed by g_free().

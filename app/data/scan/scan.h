@@ -23,7 +23,7 @@
 
 // What the caller states about the file. Initialise with zeros: the file states everything.
 typedef struct {
-  // Number (as the file has it) or title of a channel of a .gwy; NULL: its only channel of heights.
+  // Number (as in the file) or title of a channel of a .gwy; NULL: its only one, or another format.
   const char *channel;
   double spacing; // distance of the points in x and y, in place of the file's [m]; 0: the file's
   // For a text file; a file of another format is refused if one of these two is set.

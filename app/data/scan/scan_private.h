@@ -81,7 +81,7 @@ bool sb_scan_is_grid(const SbScanText *text);
 // Returns whether the first column of a matrix has even steps, as positions have and heights not.
 bool sb_scan_is_placed(const SbScanText *text);
 
-// Writes columns x, z (or z alone, which leaves dx unset) to a profile, whose heights it allocates.
+// Writes columns x, z (or z alone: dx becomes 0) to a profile, whose heights it allocates.
 // `lateral` is the metres per unit of x, `vertical` those of z. Returns false with an error of
 // sb_scan_allocate(), or if the steps of x are unequal.
 bool sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double vertical,
