@@ -22,10 +22,10 @@ typedef struct {
 // A curve.
 typedef struct {
   const char *name;
-  const SbLoop *before, *after;            // of the model with the scene's and the fitted values
+  const SbLoop *before, *after; // of the model with the scene's and the fitted values; empty: none
   const SbMeasuredBand *prior, *posterior; // contain 95 % of the model's loops; end 0: none
-  const SbComparison *comparison;          // NULL: the fitted stem does not slide
-  double before_rms;                       // root mean square difference before the fit [N]
+  const SbComparison *comparison; // with the fitted model; NULL: the fitted stem does not slide
+  double before_rms; // root mean square difference before the fit [N]; NaN: the stem does not slide
 } SbCalibrationLoop;
 
 // The page; everything is borrowed. Texts: title and subtitle of the header (each may be NULL),
@@ -36,8 +36,9 @@ typedef struct {
   size_t rows, loops, samples;
   const SbCalibrationRow *row;   // [rows]
   const SbCalibrationLoop *loop; // [loops]
-  const double *sample;          // [samples][rows], of the posterior [SI]
-  const double *correlation;     // [rows][rows], of the posterior
+  // Of the posterior; not read if `samples` is below 10, may then be NULL.
+  const double *sample;      // [samples][rows] [SI]
+  const double *correlation; // [rows][rows]
 } SbCalibrationView;
 
 // Size for which the page is designed [px].

@@ -4,14 +4,15 @@
 
 #include "app/chart/data.h"
 
-// A curve. Initialised by sb_contact_curve_init(), freed by sb_contact_curve_finish().
+// A curve. Initialised by sb_contact_curve_init(), freed by sb_contact_curve_finish(). Pressures
+// are above the lower of the two fluid pressures of the seal.
 typedef struct {
   size_t count;
-  double *x;         // [count], in the seal's frame [m]
-  double *pressure;  // [count], contact pressure [Pa]
-  double *film;      // [count], film thickness [m]
-  double *asperity;  // [count], pressure of the asperities [Pa]
-  bool asperities;   // `asperity` is known
+  double *x;         // [count], in the seal's frame, increasing [m]
+  double *pressure;  // [count], contact pressure, outside of the contact that of the fluid [Pa]
+  double *film;      // [count], film thickness [m]; 0: not computed
+  double *asperity;  // [count], pressure carried by asperities [Pa]
+  bool asperities;   // `asperity` is not 0 everywhere
   const char *model; // name of the model that computed it, static; NULL: Hertz's shape
 } SbContactCurve;
 
@@ -26,8 +27,9 @@ void sb_contact_curve_init(SbContactCurve *out, const SbChartRun *run, const SbS
 // Frees the arrays.
 void sb_contact_curve_finish(SbContactCurve *curve);
 
-// Moves the ends *left and *right [m] of the part that is drawn outwards to where the pressure
-// equals the fluid's: a solved film extends a little beyond the dry contact of the frame.
+// Moves the ends *left and *right [m] of the part that is drawn, which the caller has set to the
+// contact's ends, outwards to where the pressure equals the fluid's on that side: a solved film
+// extends a little beyond the dry contact of the frame.
 void sb_contact_curve_extend(const SbContactCurve *curve, const SbSealFrame *seal, double *left,
                              double *right);
 

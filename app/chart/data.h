@@ -26,8 +26,8 @@ typedef struct {
   const SbSummary *summary;    // NULL until the run has ended
   const SbLifeActuation *life; // [life_count] actuations; NULL until the run has ended
   size_t life_count;
-  // Returns the contact profile with the index SbSealFrame.profile; a NULL function or result: the
-  // run stored none. `source` is passed to it.
+  // Returns the contact profile with the index SbSealFrame.profile, NULL for UINT32_MAX; a NULL
+  // function or result: the run stored none. `source` is passed to it.
   const SbContactProfile *(*profile)(const void *source, uint32_t index);
   // Returns the solved ring with the index SbSealFrame.shape, as `profile`.
   const SbSealShape *(*shape)(const void *source, uint32_t index);
@@ -42,7 +42,7 @@ typedef struct {
 } SbChartCurve;
 
 // The prediction of a run that is not solved yet: its loop, and a run with one frame at the
-// position of the playhead, with its contacts' profiles and all figures.
+// position of the playhead, with its contacts' profiles and all figures; `run.profile` is not NULL.
 typedef struct {
   SbChartCurve loop;
   SbChartRun run;
@@ -122,7 +122,7 @@ const char *sb_chart_seal_name(const SbModel *model, int seal);
 // A force on the stem with its name and colour.
 typedef struct {
   const char *name; // translated
-  double force;     // as in SbFrame [N]
+  double force;     // drive > 0 into the canister; others > 0 push the stem out [N]
   SbRole role;
 } SbChartForce;
 

@@ -17,8 +17,10 @@ void sb_hysteresis_layout(SbAxes *out, SbRect rect, const SbChartData *data, uns
 // Largest enlargement.
 enum { SB_HYSTERESIS_ZOOM_MAX = 200 };
 
-// Writes the range of the plot after enlarging that of `data` by `factor` (below 1: reducing) about
-// the pixel (x, y). Returns false if that is the full loop; *out is then not needed.
+// Writes the range of the plot after enlarging that of `data` by `factor` (> 0; below 1: reducing)
+// about the pixel (x, y). Returns whether the plot is enlarged; if not, it shows the full loop and
+// *out has no meaning. Beyond SB_HYSTERESIS_ZOOM_MAX it does not change *out and returns whether
+// data->zoom is set: initialise *out with that range.
 bool sb_hysteresis_zoom(SbChartZoom *out, SbRect rect, const SbChartData *data, unsigned flags,
                         double factor, double x, double y);
 
@@ -28,10 +30,11 @@ bool sb_hysteresis_hit(size_t *frame, SbRect rect, const SbChartData *data, unsi
                        double x, double y, double reach);
 
 // Writes the forces of the loop at a displacement [m], out[0] on the in-stroke and out[1] on the
-// return [N]; NaN: it does not reach the displacement.
+// return [N]; NaN: it does not reach the displacement. If the loop passes it several times in a
+// direction, the longest straight piece of the trace is used.
 void sb_hysteresis_forces(double out[2], const SbChartRun *run, double displacement);
 
-// Returns these forces as text: "2.00 mm  in 25.0 N  back 4.0 N".
+// Returns the forces of sb_hysteresis_forces() as text: "2.00 mm  in 25.0 N  back 4.0 N".
 char *sb_hysteresis_cursor_text(const SbChartRun *run, double displacement);
 
 // Writes the displacement [m] at the pixel (x, y). Returns false if that is outside of the plot.

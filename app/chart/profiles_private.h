@@ -19,18 +19,20 @@ typedef struct {
 } SbProfileChart;
 
 // Writes a figure of the seal at this instant to out[SB_FORMAT_MAX], with the unit, the digits and
-// the error of the figure `name` of the run.
+// the error of the run's figure seals.SEAL.`name` ("film_min_m").
 void sb_profile_figure(char *out, const SbProfileChart *s, const char *name, double value);
 
 // Returns the style of the seal's figures.
 SbTextStyle sb_profile_style(const SbProfileChart *s);
 
-// Returns the pixels of a seal's pressure from one end of its contact to the other, where it is
-// that of the fluid; freed by g_free().
+// Returns the *count pixels of the pressure of `seal` from one end of its contact to the other;
+// ends of a solved film are where the pressure is that of the fluid. `seal`, which is in contact,
+// and `curve` may be of another run than the chart's. Freed by g_free(); two more points have room.
 SbPoint *sb_profile_pressure_points(const SbProfileChart *s, const SbContactCurve *curve,
                                     const SbSealFrame *seal, size_t *count);
 
-// Returns the pixels of a seal's film where there is a contact; freed by g_free().
+// Returns the *count pixels (may be 0) of the film of `seal`, without points where there is no
+// film. `seal` and `curve` as in sb_profile_pressure_points(). Freed by g_free().
 SbPoint *sb_profile_film_points(const SbProfileChart *s, const SbContactCurve *curve,
                                 const SbSealFrame *seal, size_t *count);
 

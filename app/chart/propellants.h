@@ -50,6 +50,7 @@ int sb_propellants_fluid(int propellant);
 // Returns the name of a propellant. Static.
 const char *sb_propellants_name(int propellant);
 
-// Returns a translated sentence on each propellant at the cursor, for accessibility.
+// Returns translated sentences, one a line, on each propellant that is not hidden, at the cursor,
+// and on the modulus, for accessibility.
 char *sb_propellants_text(const SbStudy *study, const SbModel *model,
                           const SbPropellantsLook *look);

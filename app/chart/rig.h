@@ -5,8 +5,8 @@
 #include "app/chart/data.h"
 #include "app/draw/canvas.h"
 
-// Draws the coefficients on one scale, ours and those of thesis table 7.8, and the reasons for the
-// differences.
+// Draws the coefficients on one scale, those of the run and those of thesis table 7.8, and the
+// reasons for the differences.
 void sb_rig_figures_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                          unsigned flags);
 

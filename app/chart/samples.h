@@ -12,11 +12,11 @@ typedef struct {
   const char *si, *unit; // SI unit and display unit
   const double *value;   // value[i * stride] is the value of sample i [si]; NaN: omitted
   size_t count, stride;  // samples; distance of their values
-  double low, high;      // limit on the figure [si]; infinite: open
+  double low, high;      // limits on the figure [si]; infinite: open
 } SbHistogram;
 
-// Draws the histogram into `rect` [px]; bars beyond the limit are red, and their fraction is
-// stated.
+// Draws the histogram into `rect` [px]; bars beyond the limit are red, and the number of samples in
+// them is stated.
 void sb_histogram_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbHistogram *of);
 
 // Largest number of bars that are drawn.
@@ -27,7 +27,7 @@ typedef struct {
   const char *title;
   const char *note; // meaning of the bars; NULL: none
   const char *unit; // of the values; "" without
-  size_t count;     // of `bar`
+  size_t count;     // of `bar`, at most 4 SB_TORNADO_MAX
   struct {
     const char *name;
     double value;     // signed; NaN: unknown, omitted

@@ -11,7 +11,7 @@ void sb_study_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbStudy
 
 // Positions of the parts.
 typedef struct {
-  SbRect panel[SB_STUDY_PANELS]; // by panel of the study
+  SbRect panel[SB_STUDY_PANELS]; // by panel of the study; others are zero
   SbRect table, notes;           // height 0: none
 } SbStudyLayout;
 
@@ -24,6 +24,6 @@ void sb_study_table_draw(SbCanvas *canvas, SbRect rect, const SbStudy *study);
 // Returns the height of the table [px]; 0: no table.
 double sb_study_table_height(const SbStudy *study);
 
-// Returns the table, or without one the curves, as tab-separated lines, for the clipboard and for
-// accessibility.
+// Returns the title, the table (if there is one; tab-separated) and the notes as lines, translated,
+// for the clipboard and for accessibility. Curves are not included.
 char *sb_study_text(const SbStudy *study);

@@ -23,6 +23,7 @@ SbStroke sb_study_series_look(const SbStudy *study, const SbStudySeries *series)
 // Returns whether a point [px] is finite and within the height of the plot.
 bool sb_study_inside(const SbStudyPlot *plot, SbPoint p);
 
-// Writes the names of the curves points[series][...] [px], in the gutter of this width [px] or, if
-// it is 0, in the plot. Returns the number of curves that are visible.
+// Writes the names of the panel's curves, in the gutter on the right of the plot, `gutter` px wide,
+// or, if it is 0, in the plot. points[s][i] is the pixel of point i of curve s. Returns the number
+// of curves that are visible.
 int sb_study_name_series(SbStudyPlot *plot, SbPoint **points, double gutter);

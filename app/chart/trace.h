@@ -7,8 +7,9 @@
 
 typedef struct SbTrace SbTrace;
 
-// A point of the polyline. Neighbours differ by more than 1/4000 of a range in displacement, force
-// or time; every event is a point.
+// A point of the polyline. Neighbours differ by at least 1/4000 of an expected range in
+// displacement, force or time (if a run is much longer than expected, by 1/2000, 1/1000, ...);
+// events and the points before jumps are added.
 typedef struct {
   double time;         // [s]
   double displacement; // of the stem [m]
@@ -39,8 +40,8 @@ typedef struct {
   double time_max;                           // [s]
   double displacement_min, displacement_max; // [m]
   double force_min, force_max;               // [N]
-  double pressure_peak_max;                  // contact pressure of both seals [Pa]
-  double film_max, film_min;                 // of sliding contacts [m]; 0: none slid
+  double pressure_peak_max;                  // largest SbSealFrame.pressure_peak of both seals [Pa]
+  double film_max, film_min; // largest central film, smallest film of contacts [m]; 0: no film
   double contact_left, contact_right; // smallest left and largest right end of all contacts in
                                       // their seals' frames [m]; equal: no contact
 } SbTraceRange;
@@ -59,7 +60,7 @@ typedef struct {
   int cycle; // from 0
 } SbTraceEvent;
 
-// Largest number of events.
+// Largest number of events; later ones are omitted.
 enum { SB_TRACE_EVENTS_MAX = 600 };
 
 // Returns the events of all cycles that were read, in their order, and their number in *count.
@@ -71,7 +72,7 @@ const SbTraceEvent *sb_trace_events(const SbTrace *trace, size_t *count);
 const SbStageMark *sb_trace_mark(const SbTrace *trace, SbStage stage, int cycle);
 
 // Returns the index of the frame at which a stage of a cycle (from 0) ends: that of the next event,
-// or the last of the run's `count` frames.
+// or, also if the stage was not reached, the last of the run's `count` frames (> 0).
 size_t sb_trace_stage_end(const SbTrace *trace, SbStage stage, int cycle, size_t count);
 
 // Returns the index in sb_trace_events() of the event whose stage contains frame number `frame` of
@@ -79,7 +80,7 @@ size_t sb_trace_stage_end(const SbTrace *trace, SbStage stage, int cycle, size_t
 // event at or before it.
 int sb_trace_event_of(const SbTrace *trace, const SbFrame *frames, size_t frame);
 
-// Largest number of peaks.
+// Largest number of peaks; later ones are omitted.
 enum { SB_TRACE_PEAKS_MAX = 20000 };
 
 // Returns the peaks of the force of a sliding-plate rig that were read, in the order of time, and

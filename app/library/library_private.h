@@ -25,11 +25,11 @@ void sb_catalogue_set_up(void);
 // runs, its thread has this one. Set by sb_catalogue_set_up().
 extern locale_t sb_catalogue_locale;
 
-// Gives the calling thread the locale *before.
+// Gives the calling thread the locale *before. For SB_IN_OWN_LOCALE.
 void sb_catalogue_restore_locale(locale_t *before);
 
-// Declares `before_`, the thread's locale, which returns at the end of the scope; until then the
-// thread has sb_catalogue_locale.
+// Declares `before_`, the locale that the thread has. Until the end of the scope the thread has
+// sb_catalogue_locale, afterwards `before_` again. Call sb_catalogue_set_up() before.
 #define SB_IN_OWN_LOCALE                                                                           \
   __attribute__((cleanup(sb_catalogue_restore_locale), unused)) locale_t before_ =                 \
       uselocale(sb_catalogue_locale)

@@ -7,8 +7,9 @@
 
 typedef struct SbCutaway SbCutaway;
 
-// Returns a cutaway for the frames of `model` (read only during the call). `inner_contact_left` as
-// in sb_valve_outline_make(). It draws one picture after the other. Freed by sb_cutaway_destroy().
+// Returns a cutaway for the frames of `model` (read only during the call), for any number of
+// pictures. `inner_contact_left` is the left end of the inner seal's contact in its own frame when
+// it reaches the land edge [m]. Freed by sb_cutaway_destroy().
 SbCutaway *sb_cutaway_create(const SbModel *model, double inner_contact_left);
 
 // Frees a cutaway.

@@ -18,8 +18,8 @@ struct SbCutaway {
   GArray *point, *scalar; // buffers for cells: of SbPoint and of float
 };
 
-// Returns the plane of a cut face, 0 or 1, in the picture: (axial position, radius) in the
-// housing's frame [m].
+// Returns the plane of a cut face, 0 or 1, in the picture that sb_revolve_begin() started: (axial
+// position, radius) in the housing's frame [m].
 SbSectionPlane sb_cutaway_plane(const SbRevolve *revolve, int face);
 
 // Draws the names of the parts that the cut faces show, while the camera looks into the open

@@ -53,10 +53,10 @@ typedef struct {
   // Stroke.
   double width;       // of the line [px]
   const SbDash *dash; // borrowed; NULL: solid
-  bool closed;        // the last point is joined to the first
+  bool closed;        // the last point is joined to the first; false when added, except frames
   // Fill.
   SbDrawHatch hatch;
-  bool feather; // smooth edges; false if an outline follows
+  bool feather; // smooth edges, true when added; set it to false if an outline follows
   // Mesh: `count` vertices, three per triangle, with scalars in SbDrawList.scalar.
   size_t first_scalar;
   const SbDrawMap *map;    // borrowed
@@ -89,21 +89,22 @@ typedef struct {
   int current_clip; // of the next items
 } SbDrawList;
 
-// Initialises an empty list.
+// Initialises an empty list. Call sb_draw_list_clear() before items are added.
 void sb_draw_list_init(SbDrawList *list);
 
 // Frees the arrays.
 void sb_draw_list_finish(SbDrawList *list);
 
-// Removes all items and starts a picture of this size [px].
+// Removes all items and starts a picture of this size [px], without a restriction to a rectangle.
 void sb_draw_list_clear(SbDrawList *list, double width, double height, SbColor background);
 
 // Restricts items that are added from now on to this rectangle (NULL: the full picture), in place
 // of an earlier one.
 void sb_draw_clip(SbDrawList *list, const SbRect *rect);
 
-// The functions below add one item and return it, so that members can be changed; the pointer is
-// valid until the next addition. Points are copied. Sizes and widths are in px.
+// Those of the functions below that return an item add this one item, so that its members can be
+// changed; the pointer is valid until the next addition. Members that a function has no parameter
+// for are 0 unless stated at SbDrawItem. Points are copied. Sizes and widths are in px.
 
 // Adds a polygon with points[count].
 SbDrawItem *sb_draw_fill(SbDrawList *list, const SbPoint *points, size_t count, SbColor color);
@@ -143,6 +144,7 @@ SbDrawItem *sb_draw_text(SbDrawList *list, double x, double y, double size, int 
 // except texts. Hatches keep their direction, because the parts are the same.
 void sb_draw_reflect(SbDrawList *list, size_t first, double y);
 
-// Adds an arrow from (x0, y0) to its tip (x1, y1): a shaft `line` wide and a filled head.
+// Adds an arrow from (x0, y0) to its tip (x1, y1): a shaft `line` wide and a filled head. Nothing
+// if both points are the same.
 void sb_draw_arrow(SbDrawList *list, double x0, double y0, double x1, double y1, double line,
                    double head_length, double head_width, SbColor color);

@@ -13,8 +13,8 @@ typedef struct SbGlAtlas SbGlAtlas;
 // A line in the atlas.
 typedef struct {
   int u, v, width, height; // its rectangle in the texture [texels], (u, v) is the upper left texel
-  int left, ascent;        // from the anchor (left end, baseline) to that texel, right and up [px]
-  double advance;          // width for layout [device px]
+  int left, ascent; // from the anchor (left end, baseline) to that texel, right and up [device px]
+  double advance;   // width for layout [device px]
 } SbGlLine;
 
 // Returns an empty atlas in the context of `gl`, which is current and must outlive it. Freed by
@@ -24,12 +24,11 @@ SbGlAtlas *sb_gl_atlas_create(const SbGlApi *gl);
 // Frees the atlas and its texture, with its context current.
 void sb_gl_atlas_destroy(SbGlAtlas *atlas);
 
-// Finds a line of text, or draws it into the atlas. `size` is in device pixels, `weight` as in
-// SbDrawItem. Returns false if the atlas is full: then call sb_gl_atlas_clear() and start the
-// picture again.
+// Finds a line of text, or draws it into the atlas. `size` is in device pixels. Returns false if
+// the atlas is full: then call sb_gl_atlas_clear() and start the picture again.
 bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weight, SbGlLine *line);
 
-// Removes all lines; with `grow` the texture becomes twice as large.
+// Removes all lines; with `grow` the texture becomes twice as large, up to 8192 x 8192 texels.
 void sb_gl_atlas_clear(SbGlAtlas *atlas, bool grow);
 
 // Returns the texture, valid until the next change of the atlas.

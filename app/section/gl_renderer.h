@@ -3,7 +3,8 @@
 //
 // Edges are smoothed by analytic coverage in the shaders, without multisampling. Text is drawn at
 // whole pixels from an atlas of lines that Pango laid out at the device's resolution. A renderer is
-// used in the thread of its context, which must be current for every call.
+// used in the thread of its context, which must be current for every call. It does not restore the
+// GL state that it changes.
 #pragma once
 
 #include "app/section/draw_list.h"
@@ -33,6 +34,6 @@ SbStatus sb_gl_renderer_draw(SbGlRenderer *renderer, const SbDrawList *list, int
 void sb_gl_renderer_read(SbGlRenderer *renderer, uint8_t *pixels, size_t stride);
 
 // Draws a list into the framebuffer that is bound now, of width x height device pixels with its
-// origin at the bottom left (a window's).
+// origin at the bottom left (a window's); `scale` is device pixels per logical pixel.
 void sb_gl_renderer_draw_bound(SbGlRenderer *renderer, const SbDrawList *list, int width,
                                int height, double scale);

@@ -46,7 +46,7 @@ void sb_mesh_stroke(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
 void sb_mesh_field(SbMesh *mesh, const SbDrawItem *item, const SbPoint *points,
                    const float *scalars, double scale);
 
-// Appends a rectangle of the text atlas: its top left corner is drawn at (x, y) [device px], and
-// (u, v) is its upper left texel.
+// Appends a rectangle of the text atlas, `width` x `height` texels, which are device pixels: its
+// top left corner is drawn at (x, y) [device px], and (u, v) is its upper left texel.
 void sb_mesh_glyphs(SbMesh *mesh, double x, double y, double width, double height, double u,
                     double v, SbColor color);

@@ -17,15 +17,15 @@ typedef struct {
   bool full, undeformed, cutaway;             // both halves; free outlines; three dimensions
   double azimuth, elevation;                  // of the cutaway's camera [rad]
   SbField field;                              // shown by the colours of solved rings
-  double field_max;                           // end of the colours [Pa]; 0: automatic
+  double field_max; // end of the colours [Pa]; 0: automatic; not for displacement and permeation
 } SbSectionStyle;
 
 // Returns the style that a scene specifies.
 SbSectionStyle sb_section_style_of(const SbModel *model);
 
-// Creates a painter. With `use_gl` it creates a context of `backend`: SB_ERROR_IO if a named one
-// does not work; SB_GL_AUTO then uses cairo, which its reason states. Freed by
-// sb_section_painter_destroy().
+// Creates a painter with the default style. With `use_gl` it creates a context of `backend`:
+// SB_ERROR_IO if a named one does not work; SB_GL_AUTO then uses cairo, which the reason of the
+// painter states. Without `use_gl` it uses cairo. Freed by sb_section_painter_destroy().
 SbStatus sb_section_painter_create(SbSectionPainter **out, bool use_gl, SbGlBackend backend,
                                    SbReport *report);
 

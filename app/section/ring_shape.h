@@ -36,7 +36,8 @@ typedef struct {
 } SbRingShape;
 
 // Computes the outline with the contact left .. right on the bore [m], of which the fraction
-// `land_fraction` is on the land (1: all; 0: the ring is in contact with the floor only).
+// `land_fraction` is on the land (1: all; 0, or left >= right: the ring is in contact with the
+// floor only).
 void sb_ring_shape_make(SbRingShape *shape, const SbRingRoom *room, double left, double right,
                         double land_fraction);
 

@@ -17,12 +17,13 @@ typedef struct SbSection SbSection;
 // Scales that are the same for all frames of a run.
 typedef struct {
   double inner_contact_left; // left end of the inner contact when it reaches the land edge [m]
-  double pressure_max;       // largest contact pressure, for the inset's scale [Pa]
+  double pressure_max;       // largest SbSealFrame.pressure_peak, for the inset's scale [Pa]
   double film_max;           // largest central film, for the inset's scale [m]
   double force_max;          // largest force of drive and canister, for the scale of the bars [N]
   // Smallest left and largest right end of each contact, in the seal's frame, for the inset [m].
   double contact_left[SB_SEAL_COUNT], contact_right[SB_SEAL_COUNT];
-  // [SbField]: ends of the colour maps for solved rings [SI of the field].
+  // [SbField]: ends of the colour maps for solved rings [SI of the field]; zeros before the first
+  // sb_section_limits_add_shape().
   double field_min[SB_FIELD_COUNT], field_max[SB_FIELD_COUNT];
 } SbSectionLimits;
 
@@ -48,9 +49,10 @@ typedef struct {
   double azimuth, elevation; // of the cutaway's camera, see sb_orbit() [rad]
   double magnify;            // of the cutaway; 0 counts as 1
   SbField field;             // shown by the colours of solved rings
-  double field_max;          // end of the colours [Pa]; 0: that of the limits; not for displacement
-  bool undeformed;           // draw the rings' outlines before fitting, dashed
-  bool mesh;                 // draw the edges of the elements of solved rings
+  double field_max; // end of the colours [Pa]; 0: that of the limits; not for displacement and
+                    // permeation
+  bool undeformed;  // draw the rings' outlines before fitting, dashed
+  bool mesh;        // draw the edges of the elements of solved rings
 } SbSectionView;
 
 // The instant to draw; everything is borrowed for the call. `summary` has the errors of the run's
@@ -69,8 +71,8 @@ SbSection *sb_section_create(const SbModel *model, const SbSectionLimits *limits
 // Frees a section.
 void sb_section_destroy(SbSection *section);
 
-// Sets the limits, except those of fields, from frames[count]; the other members must be zero
-// before.
+// Sets the limits from frames[count], those of fields to zeros: call it before the next two
+// functions.
 void sb_section_limits_of_frames(SbSectionLimits *limits, const SbFrame *frames, size_t count);
 
 // Extends the limits of fields by one solved ring (NULL: none). The highest 2 % of the nodes are
@@ -93,7 +95,8 @@ double sb_section_field_scale(SbField field);
 void sb_section_draw(SbSection *section, SbDrawList *list, const SbSectionView *view,
                      const SbSectionInstant *instant);
 
-// Returns the height that the strip has in such a picture [px].
+// Returns the height that the strip has in the picture that sb_section_draw() draws with the same
+// arguments [px].
 double sb_section_strip_height(SbSection *section, const SbSectionView *view,
                                const SbSectionInstant *instant);
 

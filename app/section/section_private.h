@@ -60,7 +60,8 @@ typedef struct {
 double sb_section_label(SbSection *section, double x, double y, const SbSectionLabel *style,
                         const char *string);
 
-// Returns whether a label at (x, y) would neither cover a reserved rectangle nor leave `within`.
+// Returns whether a label at (x, y) would neither cover a reserved rectangle nor leave `within`
+// (NULL: it may be anywhere).
 bool sb_section_label_fits(SbSection *section, double x, double y, const SbSectionLabel *style,
                            const char *string, const SbRect *within);
 
@@ -76,13 +77,14 @@ void sb_section_reserve(SbSection *section, double x, double y, double width, do
 // Draws the labels of the strip.
 void sb_section_draw_strip_labels(SbSection *section);
 
-// Draws the lines from the contact in the strip to the insets.
+// Draws the lines from the contact in the strip to the insets in these rectangles [px].
 void sb_section_draw_leader(SbSection *section, const SbRect *pressure, const SbRect *film);
 
 // Draws the insets into these rectangles [px].
 void sb_section_draw_insets(SbSection *section, const SbRect *pressure, const SbRect *film);
 
-// Draws the legends of the colours with their top left corner at (x, y) [px].
+// Draws the title, the legends of the colours, each `width` wide, and the bars of the forces with
+// their top left corner at (x, y) [px].
 void sb_section_draw_legends(SbSection *section, double x, double y, double width);
 
 // Position of the housing's frame in a picture.
@@ -124,11 +126,12 @@ bool sb_section_place(SbSection *section, const double (*at)[2], size_t count,
 // Largest number of knots of a curve, and of its points.
 enum { SB_SECTION_KNOTS = 7, SB_SECTION_WAY = 73 };
 
-// Writes the points of a Catmull-Rom curve through knot[knots] to out[SB_SECTION_WAY] and returns
-// their number.
+// Writes the points of a Catmull-Rom curve through knot[knots], 2 to SB_SECTION_KNOTS, to
+// out[SB_SECTION_WAY] and returns their number.
 size_t sb_section_curve(SbValvePoint *out, const SbValvePoint *knot, int knots);
 
-// Draws the path of the liquid along way[count] [m] as an arrow in the strip.
+// Draws the path of the liquid along way[count], 4 to SB_SECTION_WAY points of the housing's frame
+// [m], as an arrow in the strip.
 void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t count);
 
 // Draws the bold name of a space with its pressure [Pa] after it, or `below` it, at (x, y) [px],
@@ -136,7 +139,8 @@ void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t cou
 void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below);
 
-// Draws the labels of a gasket valve (section_gasket.c); `whole`: all of them.
+// Draws the labels of a gasket valve (section_gasket.c): all of them if `whole`, else only the
+// names of the gaskets.
 void sb_section_gasket_labels(SbSection *section, bool whole);
 
 // Writes the ends of a field's colour map [SI of the field].
@@ -151,25 +155,26 @@ typedef struct {
 // Returns the pixel of a point of a plane.
 SbPoint sb_section_plane_at(const SbSectionPlane *plane, double x, double y);
 
-// Draws the ring of a seal, whose own frame is `plane`.
+// Draws the ring of a seal. `plane` is the plane of the seal's frame: x along the axis, y above the
+// groove floor.
 void sb_section_draw_ring(SbSection *section, int seal, const SbSectionPlane *plane);
 
 // Size of the buffers of the functions below [bytes].
 enum { SB_SECTION_NUMBER = 64 };
 
-// The functions below write a number to `buffer` with three digits (forces below ten with two), a
-// minus sign, thin spaces between thousands, "0" for zero, and its unit. They return `buffer`.
+// The functions below write a number to `buffer` with a minus sign, thin spaces between thousands,
+// and "0" for zero. They return `buffer`.
 
-// Writes a force [N] in N.
+// Writes a force [N] in N, with one decimal below 100.
 const char *sb_section_force(char *buffer, double newtons);
 
-// Writes a pressure [Pa] in MPa.
+// Writes a pressure [Pa] in MPa, with two decimals below 10, one below 100.
 const char *sb_section_megapascal(char *buffer, double pascals);
 
-// Writes a length [m] in mm.
+// Writes a length [m] in mm, with two decimals below 10, one below 100.
 const char *sb_section_millimetre(char *buffer, double metres);
 
-// Writes a film thickness [m] in nm or µm.
+// Writes a film thickness [m] in nm or µm, with three digits if it is 1 nm or more.
 const char *sb_section_film(char *buffer, double metres);
 
 // Writes a number without a unit with `decimals` decimals.
@@ -178,5 +183,6 @@ const char *sb_section_fixed(char *buffer, double value, int decimals);
 // Writes a number without a unit with two significant digits.
 const char *sb_section_two_digits(char *buffer, double value);
 
-// Writes a number without a unit with at most three significant digits.
+// Writes a number without a unit with the fewest decimals that change it by at most 0.5 %, at most
+// six.
 const char *sb_section_significant(char *buffer, double value);

@@ -86,15 +86,15 @@ typedef struct {
   double coil;                 // diameter of the wire
   double slot;                 // x of the edge of the slots through which the liquid enters
   double left;                 // smallest x that is drawn
-  double ferrule, neck_gasket; // x of the outer faces of the ferrule
+  double ferrule, neck_gasket; // x of the ferrule's outer face: at its end, beside the neck gasket
   double flange;               // radius of the can's flange
   bool adjusted;               // a size of the drawing was changed, or a profile was scaled
 } SbValveOutline;
 
 // Writes the outlines of `model`. `inner_contact_left` is the left end of the inner seal's contact
 // in its own frame when it reaches the land edge [m]; with bore.land_edge it determines the
-// positions of the seals. `top` is the radius up to which the housing is drawn [m]. `vent`: draw
-// the housing's vent.
+// positions of the seals, except those of a gasket valve. `top` is the radius up to which a housing
+// without a profile is drawn [m]. `vent`: draw the housing's vent, or a gasket valve's side port.
 void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double inner_contact_left,
                            double top, bool vent);
 

@@ -10,6 +10,6 @@ SbValveSolid *sb_valve_new_solid(SbValveOutline *valve, bool moves);
 // Appends a point (x, y) [m]; ignored if the part has SB_VALVE_POINTS_MAX points.
 void sb_valve_add(SbValveSolid *solid, double x, double y);
 
-// Builds the outlines of a gasket valve. `port`: the stem has its side port; else only the channel
-// behind it is drawn.
+// Builds the outlines of a gasket valve in *valve, which is all zeros before; `housing` is not set.
+// `port`: the stem has its side port; else only the channel behind it is drawn.
 void sb_valve_gasket_make(SbValveOutline *valve, const SbModel *model, bool port);

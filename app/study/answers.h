@@ -11,10 +11,11 @@
 
 #include <stdint.h>
 
-// Largest number of parameters; the parameter of a variable, which overrides nothing.
+// Largest number of parameters; SbQuestions.parameter of a variable of a study, which overrides
+// nothing.
 enum { SB_QUESTION_PARAMETERS = 96, SB_QUESTION_NONE = -1 };
 
-// Who computes samples (see below).
+// A set of other processes that compute samples; the caller fills it (see below).
 typedef struct SbAnswerPool SbAnswerPool;
 
 // The request. Everything is borrowed for the call.
@@ -29,12 +30,12 @@ typedef struct {
   size_t samples;
   size_t shard, shards;     // compute only the samples i with i % shards == shard; shards 0: all
   int jobs;                 // number of threads, at least 1
-  const SbAnswerPool *pool; // who computes; NULL: threads of this process
+  const SbAnswerPool *pool; // what computes; NULL: `jobs` threads of this process
   SbStore *store;           // NULL: nothing is stored
   // Ring states for the warm start of every sample; NULL: those of the base. `cold`: no warm start.
   const SbEvaluator *start;
   bool cold;
-  size_t work_used; // SbQuestion.work_used of every sample
+  size_t work_used; // solver steps of output.work_limit that no sample may use
   // Every sample solves all contacts, also those that its thread has just solved: its number of
   // solver steps then depends on the sample alone.
   bool separate;
@@ -66,12 +67,12 @@ typedef struct {
 // the parameters, none of which is SB_QUESTION_NONE. Returns false with SB_APP_ERROR_IO.
 bool sb_answers_set_list(const SbQuestions *questions, const char *const *name, GError **error);
 
-// Computes or reads the results, and commits the store. If there is a store, the caller has set its
-// list to these parameters and figures (sb_answers_set_list() or sb_store_set_list()). Call
-// sb_answers_release() in any case. Returns false with SB_APP_ERROR_IO (the store),
-// SB_APP_ERROR_CANCELLED (what was finished is in *out and in the store) or SB_APP_ERROR_INPUT (too
-// many samples for the memory). A sample that fails does not make the call fail: its status states
-// it.
+// Computes or reads the results, and commits the store. Samples of other shards are only read from
+// the store. If there is a store, the caller has set its list to these parameters and figures
+// (sb_answers_set_list() or sb_store_set_list()). Call sb_answers_release() in any case. Returns
+// false with SB_APP_ERROR_IO (the store), SB_APP_ERROR_CANCELLED (what was finished is in *out and
+// in the store) or SB_APP_ERROR_INPUT (too many samples for the memory). A sample that fails does
+// not make the call fail: its status states it.
 bool sb_answers_get(SbAnswers *out, const SbQuestions *questions, GError **error);
 
 // Frees what the results own.

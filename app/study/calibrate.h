@@ -44,8 +44,8 @@ typedef struct {
   char *name;                  // its key; of a single curve "key@curve"
   double before;               // value of the scene
   double estimate;             // of the fit, the mode of the posterior
-  double deviation;            // standard deviation of the posterior
-  double interval[2];          // 95 % interval of the posterior
+  double deviation;            // standard deviation of the posterior; NaN: no samples
+  double interval[2];          // 95 % interval of the posterior; NaN: no samples
   double prior[2];             // 95 % interval of the prior
   SbDistribution distribution; // the prior
   SbIdentifiable identifiable;
@@ -94,23 +94,26 @@ typedef struct {
 typedef struct {
   int jobs;                      // number of threads, from 1
   bool (*cancelled)(void *data); // returns true to interrupt; called from any thread
-  void (*progress)(void *data, double fraction); // receives the fraction done, 0 to 1
+  void (*progress)(void *data, double fraction); // receives the fraction done, 0 to 1; called in
+                                                 // the calling thread
   void *data;
 } SbCalibrateHooks;
 
 // Fits the parameters and samples the posterior. `study` must have groups [vary] and [data]; it is
 // only read, but must outlive *out. Call sb_calibration_release() in any case. Returns SB_OK;
-// SB_ERROR_INPUT with issues on the files or on [vary]; SB_ERROR_CANCELLED (out->partial if the fit
-// had begun); SB_ERROR_NOT_CONVERGED (the fit has not converged, the result is complete); or the
-// error of the first run.
+// SB_ERROR_INPUT with issues on the files or on [vary], or with the report alone if the stem does
+// not slide with the scene's values; SB_ERROR_CANCELLED (out->partial if the fit had begun);
+// SB_ERROR_NOT_CONVERGED (the fit has not converged, the result is complete); or the error of the
+// first run.
 SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCalibrateHooks *hooks,
                       GPtrArray *issues, SbReport *report);
 
 // Frees what the result owns.
 void sb_calibration_release(SbCalibration *calibration);
 
-// Computes estimates, intervals, correlations, `identifiable` and the sentence from the samples and
-// the priors. Used by sb_calibrate().
+// Sets `deviation`, `interval` and `identifiable` of each parameter, and `correlation` and
+// `sentence` (both NULL before) from the samples and the parameters' `prior`. Used by
+// sb_calibrate().
 void sb_calibration_identify(SbCalibration *calibration);
 
 // Returns the text of the scene of curve `curve` (from 0) with the fitted values, comments on their

@@ -81,10 +81,10 @@ double sb_calibrate_variate(const SbDistribution *of, double value);
 size_t sb_calibrate_overrides(SbOverride *out, const SbCalibrateWork *work,
                               const SbCalibrateCurve *curve, const double *z);
 
-// Runs a curve's valve with override[overrides] into *run, which is created or replaced, and takes
-// curve->loop from it. If `base` is not NULL, the rings are linearised about those of `base`. The
-// loop is empty if the values are infeasible. Returns false if cancelled or without memory;
-// work->status and work->report have the problem.
+// Runs a curve's valve with override[overrides] into *run, which is created if it is NULL, else
+// replaced, and takes curve->loop from *run. If `base` is not NULL, the rings are linearised about
+// those of `base`. The loop is empty if the values are infeasible. Returns false if cancelled or
+// without memory; work->status and work->report have the problem.
 bool sb_calibrate_run_at(SbCalibrateWork *work, SbCalibrateCurve *curve, SbRun **run,
                          const SbRun *base, const SbOverride *override, size_t overrides);
 

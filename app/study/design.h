@@ -16,20 +16,22 @@
 
 // The result. Freed by sb_design_release().
 typedef struct {
-  bool found;     // there is a design; else `value`, `figure`, `error` and `warnings` are NULL
+  bool found;     // there is a design; else `value`, `figure`, `error` and `warnings` have no value
   bool feasible;  // it meets all limits
-  bool converged; // the search ended by its tolerances
+  bool converged; // `optimality` <= 1e-3; if not feasible: the tolerances ended the search
   double *value;  // [vary]: parameters, in the order of study->vary [SI]
   double *figure; // [figures]: in the order of study->figures [SI]
   double *error;  // [figures]: relative errors of `figure`, as sb_figure_error()
   SbWarnings *warnings; // limits of validity of the figures; NULL: no design
   // min |gradient of the objective + multipliers x gradients of the active limits and bounds|
-  // divided by |gradient of the objective|, with multipliers >= 0; 0 at an optimum.
+  // divided by |gradient of the objective|, with multipliers >= 0; 0 at an optimum; NaN: not
+  // feasible.
   double optimality;
   bool limit_active[2 * SB_LIMITS_MAX]; // [2 i]: lower side of limit i, [2 i + 1]: upper side
   int bound_active[SB_VARY_MAX];        // [vary]: -1 at the lower bound, 1 at the upper one, else 0
   size_t evaluations;                   // of all starts
-  double breach; // largest violation of a limit, relative to its scale (at most 1e-7: feasible)
+  double breach; // largest violation of a limit, relative to the limit or the scene's figure,
+                 // whichever is larger (at most 1e-7: feasible)
   size_t starts, starts_feasible; // starts; those that ended with a feasible design
   // Robustness, if there are tolerances and limits:
   bool checked;       // the members below are set
@@ -42,7 +44,7 @@ typedef struct {
 
 // Searches the best design of `study`, which must have a group [design], on `jobs` threads.
 // `cancelled` (may be NULL) is called from any thread. Returns SB_OK (also if no feasible design
-// was found), SB_ERROR_CANCELLED or SB_ERROR_MEMORY. Release *out in any case.
+// was found), SB_ERROR_CANCELLED or SB_ERROR_MEMORY. Call sb_design_release() in any case.
 SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
                           bool (*cancelled)(void *data), void *data, SbReport *report);
 

@@ -50,20 +50,22 @@ typedef struct {
   size_t evaluations;
 } Start;
 
-// Writes the starts start[study->design.starts]: the present design if it is within the bounds,
-// then points of a Sobol sequence.
+// Sets `v` of start[study->design.starts], whose other members are 0: the present design if it is
+// within the bounds, then points of a Sobol sequence (random ones if it has too few dimensions).
 SbStatus sb_design_make_starts(Start *start, const Problem *problem, SbReport *report);
 
-// Searches from start[count] on `jobs` threads. *best becomes the best result, and out->starts,
-// starts_feasible and evaluations are set. Returns SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
+// Searches from start[count] on `jobs` threads; each start becomes its result. *best becomes the
+// best of them. Adds to out->evaluations and, if `count` is out->starts (set by the caller), sets
+// out->starts_feasible. Returns SB_OK, SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
 SbStatus sb_design_run_starts(Start *best, SbDesign *out, const Problem *problem, Start *start,
                               size_t count, int jobs, SbReport *report);
 
-// Writes parameters, figures, active limits and bounds and the optimality of *best to *out.
+// Writes parameters, figures with errors and warnings, active limits and bounds and the optimality
+// of *best to *out, whose `value`, `figure` and `error` the caller has allocated.
 SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Start *best,
                                 SbReport *report);
 
 // Tightens the limits until the design is as robust as required, and checks it by samples. *best
-// and *out become the robust design.
+// and *out are a feasible design and become the robust one. The study has tolerances and limits.
 SbStatus sb_design_over_tolerances(SbDesign *out, Problem *problem, Start *best, int jobs,
                                    SbReport *report);

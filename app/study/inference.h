@@ -70,8 +70,9 @@ typedef struct {
 } SbInference;
 
 // Fits and samples. Call sb_inference_release() in any case. Returns SB_OK; SB_ERROR_CANCELLED (`z`
-// is the best point so far, without samples); SB_ERROR_NOT_CONVERGED (the result is complete, but
-// the fit has not converged).
+// is the best point so far; fewer samples than requested, or none); SB_ERROR_NOT_CONVERGED (the fit
+// has not converged, but the result is complete, except that samples are missing if the covariance
+// is not positive definite).
 SbStatus sb_inference(SbInference *out, const SbInferenceAsked *asked, SbReport *report);
 
 // Frees the arrays.

@@ -24,6 +24,7 @@ bool sb_inference_evaluate(SbInferenceWork *work, double *residual, const double
 double sb_inference_log_density(const SbInferenceWork *work, const double *residual,
                                 const double *z);
 
-// Samples the posterior from the fit in work->out, whose `sample`, `samples` and `accepted` are
-// set. Returns false if cancelled, or if the covariance is not positive definite.
+// Samples the posterior from the fit in work->out. Writes to out->sample, which the caller has
+// allocated, counts out->samples, which is 0 before, and sets out->accepted. Returns false if
+// cancelled, or if the covariance is not positive definite.
 bool sb_inference_sample(SbInferenceWork *work);

@@ -4,9 +4,10 @@
 #include "app/study/answers.h"
 #include "app/study/reliability.h"
 
-// The points of the study's method. Borrowed.
+// The points with which the results were computed. Borrowed.
 typedef struct {
-  const double *unit;               // from sb_study_file_points() or sb_reliability_points()
+  const double *unit; // [samples][vary]: *u of sb_reliability_points(); of another method *unit of
+                      // sb_study_file_points(), not read here
   const SbReliability *reliability; // NULL: another method
 } SbStudyDrawn;
 
@@ -14,19 +15,21 @@ typedef struct {
 // Infeasible samples are omitted; samples whose solver did not converge widen the interval. NaN if
 // samples about failures are missing.
 typedef struct {
-  size_t beyond, of;    // samples that violate the limit, of all samples that count
-  double probability;   // 0 to 1
-  double interval[2];   // 95 % interval of the probability
-  double beta;          // reliability index: -(normal quantile of the probability)
-  bool certain;         // every sample with a result violates the limit
+  size_t beyond, of;  // samples that violate the limit, of all samples that count
+  double probability; // 0 to 1
+  double interval[2]; // 95 % interval of the probability
+  double beta;        // reliability index: -(normal quantile of the probability); NaN: it is 0 or 1
+  bool certain;       // every sample with a result violates the limit
   char reason[SB_TEXT]; // why the probability is 0 or 1; empty: neither
 } SbLimitShare;
 
 // Computes the probability for limit `limit` of study->limits, or for limit == study->limits.count
-// the probability that any limit is violated. Returns SB_OK or SB_ERROR_MEMORY.
+// the probability that any limit is violated. `answers` has the figures of study->figures for all
+// samples. Returns SB_OK or SB_ERROR_MEMORY.
 SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
                               const SbStudyDrawn *drawn, const SbAnswers *answers, size_t limit,
                               SbReport *report);
 
-// Returns the column of a figure (index of sb_figure()) in the results; -1: it was not requested.
+// Returns the index of a figure (of sb_figure()) in study->figures, which is its column in the
+// results; -1: it is not there.
 int sb_study_column_of(const SbStudyFile *study, int figure);

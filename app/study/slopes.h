@@ -25,7 +25,8 @@ typedef struct {
 // Writes value[figures] [SI] at x[parameters] [SI] and, if `slope` is not NULL, the derivatives
 // slope[figures][parameters] (engine/valve/answer/gradient.h). Infeasible values, values out of
 // range and solvers that do not converge are no errors: the figures are then NaN. So is a
-// derivative that is not defined. Returns SB_OK, SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
+// derivative that is not defined. Returns SB_OK, SB_ERROR_CANCELLED, SB_ERROR_MEMORY, or
+// SB_ERROR_RANGE for too many parameters.
 SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const SbSlopesAsked *asked,
                    const double *x, SbReport *report);
 

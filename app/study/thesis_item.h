@@ -30,8 +30,8 @@
 // Names in expressions: a column of the printed row, a figure of the sample, a parameter in force
 // there, a variable of the grid, `pi`, `printed`, `thesis`, `consistent`, and `ours`, the value
 // from which a step starts. COLUMN.rounding is half of the unit of the last printed digit. [COLUMN]
-// is the text of a cell. In labels, reasons and notes {COLUMN}, {COLUMN:FROM:TO} and
-// {= GRID: EXPRESSION, SI DISPLAY} are replaced by values.
+// (at most one in a text) is the text of a cell. In labels, reasons and notes {COLUMN},
+// {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI DISPLAY} are replaced by values.
 #pragma once
 
 #include "app/document/study_file.h"
@@ -68,7 +68,7 @@ typedef struct {
   char *label;
   char si[16], shown[16];          // SI unit and display unit
   double printed;                  // NaN: nothing is printed
-  double rounding;                 // half of the unit of the last printed digit
+  double rounding;                 // half of the unit of the last printed digit; 0: not known
   double thesis, consistent;       // our values; NaN: none
   char *no_thesis, *no_consistent; // why there is none; NULL: there is one
   double difference;               // thesis (if NaN, consistent) minus printed

@@ -13,7 +13,7 @@ typedef struct {
   char *name;
   size_t first, samples; // its samples are first to first + samples - 1 of the study's points
   bool done;             // the members below are computed
-  bool *wanted;          // [samples]: requested by rows or curves; others have no values
+  bool *wanted;          // [samples]: requested by rows or curves, else no values; NULL: none
   GArray *figures;       // of int: indices of sb_figure() that expressions use
   double *value;         // [samples][figures] [SI]
   GHashTable *reason;    // sample -> char *: why one failed
@@ -59,8 +59,8 @@ bool sb_thesis_run_value(double *out, const char *name, const SbThesisPlace *at)
 // Returns the value of key `name` in `group`; NULL: absent.
 const char *sb_thesis_key(const SbThesisWork *work, const char *group, const char *name);
 
-// Writes the value of the expression `text` at a place [SI]. Returns false and reports an issue if
-// it has none.
+// Writes the value of the expression `text` at a place [SI]; NaN if it is not finite, because a
+// name in it has no value. Returns false and reports an issue if the expression is faulty.
 bool sb_thesis_value(double *out, const SbThesisPlace *at, const char *text, const char *group,
                      const char *key);
 
@@ -72,19 +72,21 @@ bool sb_thesis_grid(SbThesisGrid **grid, const char **expression, SbThesisWork *
 // Returns whether the computation was cancelled; calls `cancelled`.
 bool sb_thesis_stopped(SbThesisWork *work);
 
-// Returns `text` with each [COLUMN] replaced by the text of the row's cell.
+// Returns `text` with the first [COLUMN] replaced by the text of the row's cell (of row 0 if there
+// is no row).
 char *sb_thesis_with_cells(const SbThesisPlace *at, const char *text);
 
 // Returns `text` with each {COLUMN}, {COLUMN:FROM:TO} and {= GRID: EXPRESSION, SI DISPLAY} replaced
-// by its value.
+// by its value, "?" for none.
 char *sb_thesis_filled(const SbThesisPlace *at, const char *text, const char *group,
                        const char *key);
 
 // Returns the third part of a step without a leading "within " or "about ", and writes whether it
-// had them (each may be NULL). Borrowed from `text`.
+// had them (both may be NULL). Borrowed from `text`.
 const char *sb_thesis_bound(bool *within, bool *about, const char *text);
 
-// Marks the samples of a grid that belong to the rows of a group [rows NAME].
+// Marks the samples of a grid that belong to the rows of a group [rows NAME] in grid->wanted, which
+// the caller has allocated.
 void sb_thesis_want(SbThesisWork *work, SbThesisGrid *grid, const char *group);
 
 // Computes the figures of all samples that expressions and rows require. Returns false with an
@@ -97,10 +99,11 @@ SbModel *sb_thesis_model(SbThesisWork *work, const SbThesisGrid *grid, size_t sa
 // Returns whether a printed row satisfies "COLUMN = TEXT; COLUMN != TEXT" (NULL: every row does).
 bool sb_thesis_is_meant(const SbThesisWork *work, guint row, const char *where);
 
-// Computes the rows of a group [rows NAME] and appends them to the item.
+// Computes the rows of a group [rows NAME], after sb_thesis_answer_grids(), and appends them to the
+// item.
 void sb_thesis_rows(SbThesisItem *item, SbThesisWork *work, const char *group);
 
-// Computes the chart of the item.
+// Computes the chart of the item, after sb_thesis_answer_grids().
 void sb_thesis_chart(SbThesisItem *item, SbThesisWork *work);
 
 // Reports an issue on a key of a group, with a formatted sentence.
