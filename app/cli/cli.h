@@ -40,9 +40,8 @@ typedef struct {
 const SbCommand *sb_commands(void);
 
 // Removes from *argv, with their values, the options of `entries` (ends with a name of NULL;
-// strings as G_OPTION_ARG_FILENAME, so that bytes are not converted) and those that every command
-// has:
-// --quiet, --progress and, unless `entries` is NULL, --no-overwrite and --overwrite. (*argv)[0]
+// strings as G_OPTION_ARG_FILENAME, so that bytes are not converted) and those of every command
+// (--quiet, --progress and, unless `entries` is NULL, --no-overwrite and --overwrite). (*argv)[0]
 // must be the name of a command and stays; the operands follow it. `notes` (NULL: none) are printed
 // at the end of --help. Returns false, with a message, for a wrong option or if the number of
 // operands is outside of [operands_min, operands_max]. --help prints and ends the program. The
@@ -82,17 +81,17 @@ int sb_cli_unknown(const char *what, const char *word, const char *names, const 
 // "|".
 char *sb_cli_names(const char *(*name)(int), int count);
 
-// Returns the exit code of a status of the engine; prints the message of `report` unless `status`
-// is SB_OK.
+// Returns the exit code of a status of the engine; prints the message of `report` (not NULL) unless
+// `status` is SB_OK.
 int sb_cli_status(SbStatus status, const SbReport *report);
 
 // Prints each SbIssue of the list on a line.
 void sb_cli_issues(const GPtrArray *issues);
 
-// Reads the value of an option, a number with unit ("10 mm/s"), to *out [si]. `si` is the SI unit
-// and `shown` the usual unit for messages, as in sb_quantity_parse(). `text` NULL: the option is
-// absent; *out stays unchanged, and the result is true unless `required`. Returns false with a
-// message for an absent required option or a wrong value.
+// Reads the value of `option` ("--speed"), a number with unit ("10 mm/s"; without a unit only if
+// `si` is "1"), to *out [si]. `si` is the SI unit and `shown` the usual unit for messages ("":
+// none). `text` NULL: the option is absent; *out stays unchanged, and the result is true unless
+// `required`. Returns false with a message for an absent required option or a wrong value.
 bool sb_cli_quantity(double *out, const char *option, const char *text, bool required,
                      const char *si, const char *shown);
 
@@ -168,7 +167,7 @@ int sb_cli_files_run(int argc, char **argv, const SbCliFilesWork *work);
 // Prints the name of the present file as a heading of its table if there are several files.
 void sb_cli_files_head(SbCliFiles *files);
 
-// Sets the file that progress and messages name (NULL: none). Borrowed until the next call.
+// Sets the file that progress and messages name (NULL: none). The text is copied.
 void sb_cli_name_file(const char *path);
 
 // ---- Checks before the work ----
@@ -190,8 +189,10 @@ int sb_cli_check_targets(const char *const *targets, size_t count);
 // was not deleted because it was changed since.
 void sb_cli_kept(const char *folder, const GPtrArray *kept);
 
-// Writes a folder as one result of `command` (sb_output_folder_write()), with sb_cli_kept().
-// Returns an exit code.
+// Writes the folder `path` as one result: calls `fill` once with `data`, and then gives all files
+// their names. Files of an earlier result of `command` (the command's name) that this one does not
+// have are deleted, or named as by sb_cli_kept(). Returns SB_EXIT_DONE, or another exit code with a
+// message.
 int sb_cli_write_folder(const char *path, const char *command, SbOutputFill fill, void *data);
 
 // ---- Output ----
@@ -239,7 +240,8 @@ typedef struct {
 // Begins; nothing is printed yet.
 void sb_progress_start(SbProgress *progress, const char *what);
 
-// Prints the fraction done, 0 to 1, if it differs from what was printed last.
+// Prints the fraction done, 0 to 1, if it differs from what was printed last. `progress` is an
+// SbProgress; void, so that this can be a callback.
 void sb_progress_update(void *progress, double fraction);
 
 // Removes the bar.
@@ -252,16 +254,20 @@ void sb_progress_end(SbProgress *progress);
 // *out is not to be written. An SbStudy owns nothing; it is too large for a stack.
 int sb_cli_study(SbStudy *out, SbStudyKind kind, const SbModel *model);
 
-// Computes the drawn studies of a bit mask in the order of SbStudyKind to out[*count]; an interrupt
-// ends them. Returns the last exit code other than SB_EXIT_DONE.
+// Computes the drawn studies of `mask` (bit 1 << SbStudyKind) in the order of SbStudyKind. Appends
+// those with a result to out[], which has room for SB_STUDY_COUNT, and adds their number to *count
+// (0 at first). An interrupt ends them. Returns the last exit code other than SB_EXIT_DONE.
 int sb_cli_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned mask);
 
-// Creates and executes a run, with the text `what` before its progress. Returns an engine's status;
-// *out may be a part of a run, and is freed by sb_run_destroy().
+// Creates and executes a run, with the text `what` before its progress; an interrupt ends it with
+// SB_ERROR_CANCELLED. After an error *out is the run with its frames so far, or NULL if it could
+// not be created. Freed by sb_run_destroy().
 SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, const char *what,
                         SbReport *report);
 
-// Writes the worst answers of a scene and its cases (sb_cases_judge()) and prints the problems.
+// Writes the worst answers of the finished run of a scene and of its cases to
+// verdict[SB_VERDICT_COUNT] and prints the problems. `verdict` is complete in any case. Returns
+// SB_OK, or the status of the last case that failed; SB_ERROR_CANCELLED after an interrupt.
 SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document);
 
 // Help of --measured.
@@ -394,9 +400,10 @@ typedef struct {
 typedef int (*SbCliAnswered)(void *data, const SbCliAnswers *of);
 
 // Computes the samples of `study` that the store does not have, with progress and interrupts, and
-// calls `answered` once, also after an interrupt but not after another error. Returns the highest
-// of the exit codes of the work, of `answered` and of the samples (SB_EXIT_NOT_CONVERGED if a
-// solver did not converge in one). Failures are printed.
+// calls `answered` once. After an interrupt it has the samples that are finished. `answered` is not
+// called after another error, after an interrupt before the first sample, and if
+// sb_cli_answers_elsewhere(). Returns the highest of the exit codes of the work, of `answered` and
+// of the samples (SB_EXIT_NOT_CONVERGED if a solver did not converge in one). Failures are printed.
 int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered answered,
                   void *data);
 

@@ -8,6 +8,6 @@
 #include <stdio.h>
 
 // Draws `count` cases into `stream` as a PNG, 1280 pixels wide. A case whose error estimate is NaN
-// (closed form, or its solver failed) is only in the table. Returns false as sb_still_put()
-// (still.h); errors of writing are left in the stream (ferror()).
+// (closed form, or its solver failed) is only in the table. Returns false with SB_APP_ERROR_IO if
+// it could not be drawn; errors of writing are left in the stream (ferror()).
 bool sb_bench_put(FILE *stream, const SbBenchCase *cases, size_t count, GError **error);

@@ -21,12 +21,13 @@ SbTable *sb_calibration_table(const SbCalibration *calibration);
 void sb_calibration_csv(FILE *stream, const SbCalibration *calibration);
 
 // Draws the page of a calibration into `rect` [pixels]; made for SB_CALIBRATION_WIDTH by
-// SB_CALIBRATION_HEIGHT. `dark`: theme. Texts are in the language of the calling thread.
+// SB_CALIBRATION_HEIGHT (app/chart/calibration.h). `dark`: theme. Texts are in the language of the
+// calling thread.
 void sb_calibration_page_draw(cairo_t *cr, SbRect rect, const SbCalibration *calibration,
                               const SbStudyFile *study, bool dark);
 
 // Writes the page in the light theme into `stream` in the format of `ending` (".png", ".svg",
-// ".pdf"). Returns false as sb_still_put() (still.h); errors of writing are left in the stream
-// (ferror()).
+// ".pdf"). Returns false with SB_APP_ERROR_INPUT for another ending, SB_APP_ERROR_IO if it could
+// not be drawn; errors of writing are left in the stream (ferror()).
 bool sb_calibration_put(FILE *stream, const SbCalibration *calibration, const SbStudyFile *study,
                         const char *ending, GError **error);

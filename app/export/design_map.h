@@ -6,14 +6,14 @@
 #include "app/draw/canvas.h"
 #include "app/session/design_answer.h"
 
-// Number of styles of contour lines.
+// Number of styles of contour lines; column i has style i % SB_DESIGN_LINES.
 enum { SB_DESIGN_LINES = 4 };
 
 // What the map shows.
 typedef struct {
   unsigned lines; // bit i: contour lines of column i of answer->study->figures
   bool picked;    // mark a point
-  double pick[2]; // that point: across, up [SI]
+  double pick[2]; // if `picked`: that point, across and up [SI]
 } SbDesignLook;
 
 // Returns the plot area (the map without titles and axis texts) for the same `rect` as
@@ -25,7 +25,8 @@ void sb_design_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                         const SbDesignAnswer *answer, const SbDesignLook *look);
 
 // Draws how a figure (index of sb_figure()) changes with the tolerance of each parameter, at the
-// best design if its effects are known, else at the present one.
+// best design if it is known, else at the present design. Without effects it writes why there are
+// none.
 void sb_design_tornado_draw(cairo_t *cr, SbRect rect, const SbTheme *theme,
                             const SbDesignAnswer *answer, int figure);
 

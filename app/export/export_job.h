@@ -13,24 +13,28 @@
 // What to export. Texts, `measured`, `pin`, `pin_name` and `marker` are owned by the struct; zero
 // it, then fill it. NULL and 0: as the comment states, else none.
 typedef struct {
-  char *stale;          // why the run no longer matches the values; NULL: it matches
-  char *path;           // with an ending of formats.h, or of a sequence (render_movie.h)
-  char *view;           // name of sb_render_views(); NULL: the report, whose .json has the figures
-                        // and any other ending the pages as PDF
+  char *stale; // why the run no longer matches the values; NULL: it matches
+  char *path;  // of a file, whose ending chooses the format (formats.h), or of a sequence as
+               // sb_render_is_sequence() accepts it
+  char *view;  // name of sb_render_views(); NULL: the report, whose .json has the figures
+               // and any other ending the pages as PDF
   double width, height; // [logical pixels]; 0: the size of the view
   gboolean dark;        // theme
   SbSectionStyle style; // of views that show the section
-  char *at;             // instant of a picture: "C" or "7.27 s"; NULL: as sb_render_frame_at()
-  int fps;              // of a movie: pictures per second; 0: 30
-  double duration;      // of a movie: it shows the whole range in this time [s]; 0: 10
-  double speed;         // of a movie: if above 0, seconds of the run per second of movie
-  char *from, *to;      // of a movie: "B" or "2 s"; NULL: the start and end of the run
-  char *title, *subtitle, *hash, *scene; // as SbRenderOptions (render.h)
-  SbData *measured;                      // drawn together with the run; NULL: none
-  double drive_speed;                    // for `measured`, as sb_measured_load() [m/s]
-  SbRunHandle *pin[SB_CHART_PINS];       // saved designs, by their look; NULL: none
-  char *pin_name[SB_CHART_PINS];         // their names in pictures
-  SbChartMarker *marker;                 // bookmarks, [marker_count], owned with their names
+  char *at;        // instant of a picture: "C" or "7.27 s"; NULL: the full run in a view that can
+                   // show it, else the middle of B-C
+  int fps;         // of a movie: pictures per second; 0: 30
+  double duration; // of a movie: it shows the whole range in this time [s]; 0: 10
+  double speed;    // of a movie: if above 0, seconds of the run per second of movie
+  char *from, *to; // of a movie: "B" or "2 s"; NULL: the start and end of the run
+  // Title of the scene, names of the files, SHA-256 of the parameters, and text of the scene, which
+  // is stored in PNG and SVG so that they can be opened.
+  char *title, *subtitle, *hash, *scene;
+  SbData *measured;                // drawn together with the run; NULL: none
+  double drive_speed;              // for `measured`: sb_session_drive_speed() [m/s]
+  SbRunHandle *pin[SB_CHART_PINS]; // saved designs, by their look; NULL: none
+  char *pin_name[SB_CHART_PINS];   // their names in pictures
+  SbChartMarker *marker;           // bookmarks, [marker_count], owned with their names
   size_t marker_count;
   char *file;     // of a report or .json: the document's file; NULL: not saved
   char *document; // and its text if it differs from the file; NULL: it does not

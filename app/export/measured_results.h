@@ -10,11 +10,12 @@
 void sb_json_comparison(SbJson *json, const char *key, const SbComparison *comparison);
 
 // Writes with units, in ASCII, the measured force of a stage, the model's and their difference,
-// each with the digits that its error supports; "-" where there is none. Freed by the caller.
+// each with the digits that its error supports; "-" where there is none. Each text is freed with
+// g_free().
 void sb_measured_stage_texts(char *out[3], const SbComparison *comparison, SbStage stage);
 
-// Returns a difference of forces (rms, mean, most of a comparison) with unit, in ASCII; "-" if it
-// is NaN. Freed by the caller.
+// Returns a difference of forces [N] (rms, mean, most of a comparison) with unit, in ASCII; "-" if
+// it is NaN.
 char *sb_measured_difference(double force);
 
 // Returns the table of the stages B to F, measured and computed; in JSON each stage is a member

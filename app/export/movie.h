@@ -63,9 +63,9 @@ typedef struct {
 
 // Draws and writes the movie `path`. Returns SB_OK; SB_ERROR_CANCELLED (a partial MP4 is there if
 // result->frames > 0); SB_ERROR_RANGE for an impossible size, rate or number of pictures;
-// SB_ERROR_IO for a full disk or a missing encoder (SB_ERROR_INPUT in a build without movies); or
-// the status of `draw`. After an error other than cancellation nothing new is under `path` and an
-// earlier file is intact. `hooks` and `result` may be NULL.
+// SB_ERROR_IO for a path that cannot be written, a full disk or a missing encoder (SB_ERROR_INPUT
+// in a build without movies); or the status of `draw`. After an error other than cancellation
+// nothing new is under `path` and an earlier file is intact. `hooks` and `result` may be NULL.
 SbStatus sb_movie_write(const char *path, const SbMovieOptions *options, SbMovieDraw draw,
                         void *draw_data, const SbMovieHooks *hooks, SbMovieResult *result,
                         SbReport *report);

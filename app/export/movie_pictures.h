@@ -12,14 +12,14 @@ typedef struct {
   double speed;       // seconds of the run per second of movie; 0: by `duration`
   const char *from;   // "B" or "2 s", see sb_render_frame_at(); NULL: the start
   const char *to;     // in the same form; NULL: the end
-  SbMovieHooks hooks; // progress and cancelling
+  SbMovieHooks hooks; // progress and cancelling, for the caller that writes the pictures
 } SbRenderMovie;
 
 typedef struct SbMoviePictures SbMoviePictures;
 
 // Prepares the movie of `run`. `run`, `options` and what they point to are borrowed until
-// sb_movie_pictures_close(); `movie` is only read. Fails with SB_APP_ERROR_INPUT (unknown view, no
-// frames, impossible range or rate, more than a million pictures).
+// sb_movie_pictures_close(); `movie` is only read. Fails with SB_APP_ERROR_INPUT (unknown view, a
+// view that the run has not, no frames, impossible range or rate, more than a million pictures).
 bool sb_movie_pictures_open(SbMoviePictures **out, const SbRun *run, const SbRenderOptions *options,
                             const SbRenderMovie *movie, GError **error);
 
@@ -38,6 +38,7 @@ void sb_movie_pictures_rate(const SbMoviePictures *film, int *numerator, int *de
 // Returns "Models: ... Parameters: HASH", for metadata; borrowed from `film`.
 const char *sb_movie_pictures_comment(const SbMoviePictures *film);
 
-// Draws picture `index` (from 0, below sb_movie_pictures_count()) at the movie's size. It shows the
-// frame nearest to its time; the first picture is the start of the range, the last one its end.
+// Draws picture `index` (from 0, below sb_movie_pictures_count()) from (0, 0) to the size of
+// sb_movie_pictures_size(), in units of `cr`. It shows the frame nearest to its time; the first
+// picture is the start of the range, the last one its end.
 void sb_movie_pictures_draw(SbMoviePictures *film, size_t index, cairo_t *cr);

@@ -7,7 +7,8 @@
 #include "app/document/document.h"
 #include "engine/valve/run/run.h"
 
-// Draws a view into `rect`, below the header of its page; `flags` of SB_CHART_PANEL, ... (data.h).
+// Draws a view into `rect`, below the header of its page; `flags`: bits SB_CHART_PANEL, ... of
+// app/chart/data.h.
 typedef void SbViewDraw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                         unsigned flags);
 
@@ -59,20 +60,23 @@ typedef struct {
   double width, height; // [logical pixels]; 0: the view's size
   double scale;         // of a PNG: device pixels per logical pixel; 0: 1
   bool dark;            // theme
-  const char *at;       // "C" or "7.27 s"; NULL: as sb_render_frame_at()
+  const char *at;       // of a still: "C" or "7.27 s"; NULL: the full run in a view with
+                        // SbRenderView.whole, else as sb_render_frame_at()
   const char *title;    // of the scene
   const char *subtitle; // names of the files; the header adds the run's conditions
   const char *hash;     // SHA-256 of the parameters
   const char *scene;    // text of the scene, stored in PNG and SVG so that they can be opened
   const char *ending;   // format of a `path` without an ending, ".png"; NULL: by the path
   const char *stale;    // why the run no longer matches the scene, for the page; NULL: it matches
-  const SbComparison *measured; // measured data compared with the run; NULL: none
-  SbRenderPin pin[SB_CHART_PINS];
+  const SbComparison *measured;   // measured data compared with the run; NULL: none
+  SbRenderPin pin[SB_CHART_PINS]; // saved designs, [pin_count]
   size_t pin_count;
   const SbChartMarker *marker; // bookmarks on time axes, [marker_count]
   size_t marker_count;
-  SbSectionDraw section; // draws the section; NULL: views that need it are refused
-  void *section_data;    // passed to `section`
+  // Draws the section. NULL: views with SbRenderView.section are refused, except a still of one
+  // that has SbRenderView.page, which then has no section.
+  SbSectionDraw section;
+  void *section_data; // passed to `section`
 } SbRenderOptions;
 
 // Returns whether `run` has what `view` shows; false with SB_APP_ERROR_INPUT if not.
@@ -94,9 +98,10 @@ typedef struct {
 // number. The array is freed by g_free(); the names in it are borrowed from the document.
 size_t sb_render_markers(SbChartMarker **out, const SbDocument *document);
 
-// Fills the members of `data` that come from the options: texts, measured data, bookmarks and kept
-// designs. Does not set `run` and `playhead`. `compared` and the content of `options` are borrowed
-// by `data` until sb_render_compared_end().
+// Fills the members of `data` that come from the options: texts, measured data, bookmarks and saved
+// designs that have frames. The caller has set all of `data` to zeros, and sets `run` and
+// `playhead`. `compared` and the content of `options` are borrowed by `data` until
+// sb_render_compared_end().
 void sb_render_compared_begin(SbRenderCompared *compared, SbChartData *data,
                               const SbRenderOptions *options);
 
@@ -114,7 +119,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                      GError **error);
 
 // Sets *frame (from 0) to the frame that `at` names: "A" to "F" (just before the event) or a time
-// with its unit (nearest frame; s without a unit). NULL or "": the middle of B-C, where the run's
-// figures are defined, or the last frame of a run without B or C. Returns false with
-// SB_APP_ERROR_INPUT if the run has no frame, the stage was not reached, or the text is neither.
+// with its unit (nearest frame; a time without a unit is an error). NULL or "": the middle of B-C,
+// where the run's figures are defined, or the last frame of a run without B or C. Returns false
+// with SB_APP_ERROR_INPUT if the run has no frame, the stage was not reached, the time is outside
+// of the run, or the text is neither.
 bool sb_render_frame_at(size_t *frame, const SbRun *run, const char *at, GError **error);

@@ -18,7 +18,9 @@ bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbR
 bool sb_render_is_sequence(const char *path);
 
 // Returns whether the existing files of the sequence `path` may be replaced and its folder can be
-// written to; false as sb_output_check() (app/base/output.h), which fills `check`.
+// written to. Returns false with SB_APP_ERROR_INPUT if one of them is an input or was checked
+// before, SB_APP_ERROR_IO if the folder is not writable. Adds the first file to `check`
+// (app/base/output.h), which the caller frees by sb_output_check_clear().
 bool sb_render_sequence_check(const char *path, SbOutputCheck *check, GError **error);
 
 // Renders the pictures of a movie, numbered from 1, into the files of the sequence `path`; each is

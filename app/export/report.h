@@ -36,7 +36,7 @@ bool sb_report_scene(FILE *stream, const SbReportScene *scene, const SbReportHoo
 // The content of a study's report. Borrowed during the call.
 typedef struct {
   const SbStudyFile *study;
-  const double *value;       // [samples][study->vary]: parameters of the samples [SI]
+  const double *value;       // [samples][study->vary->len]: parameters of the samples [SI]
   const SbStudyDrawn *drawn; // points of the method
   const SbAnswers *answers;  // results of the samples
 } SbReportStudy;

@@ -27,7 +27,9 @@ typedef struct {
 // The pages that are being drawn; exists only during sb_report_pages_write().
 typedef struct SbReportPages SbReportPages;
 
-// Draws a whole report with the functions below; must make the same calls both times.
+// Draws a whole report with the functions below; must make the same calls both times. The first
+// page, in portrait, has begun. A part that does not fit on the rest of a page begins another one
+// of the same orientation; parts must not be higher than a page.
 typedef void (*SbReportDraw)(SbReportPages *pages, const void *of);
 
 // Progress.
@@ -43,20 +45,22 @@ typedef struct {
 bool sb_report_pages_write(FILE *stream, const SbReportTexts *texts, SbReportDraw draw,
                            const void *of, const SbReportHooks *hooks, GError **error);
 
-// Begins a page: portrait, or landscape if `across`.
+// Ends the present page and begins another: portrait, or landscape if `across`.
 void sb_report_page(SbReportPages *pages, bool across);
 
-// Leaves `height` empty.
+// Leaves `height` empty. Does not begin a page.
 void sb_report_skip(SbReportPages *pages, double height);
 
-// Draws the title of the report and below it the line of its files.
+// Draws the title of the report and below it `line`, the names of its files; adds the entry
+// `bookmark` of SbReportTexts to the PDF's outline.
 void sb_report_title(SbReportPages *pages, const char *title, const char *line);
 
-// Draws a heading on a page that also has room for `follows`, and adds it to the PDF's outline.
+// Draws a heading on a page that also has room for the height `follows` below it, and adds it to
+// the PDF's outline.
 void sb_report_heading(SbReportPages *pages, const char *text, double follows);
 
-// Draws a paragraph. `size` [pixels]; `weight` 400 (regular) to 700 (bold: stays on the page of
-// what follows it); `role`: its colour.
+// Draws a paragraph. `size`: of the font; `weight` 400 (regular) to 700 (bold: begins a page unless
+// a height of 60 remains below the text); `role`: its colour.
 void sb_report_text(SbReportPages *pages, const char *text, double size, int weight, SbRole role);
 
 // Draws a paragraph on a coloured ground: an error, or else a warning.
@@ -77,9 +81,9 @@ void sb_report_pair(SbReportPages *pages, double height, SbReportPicture draw, c
 double sb_report_left(const SbReportPages *pages);
 
 // Draws a table (app/table/table.h) of at most SB_REPORT_COLUMNS columns with a label; its head is
-// repeated on each new page. A column has its share of the width, its numbers are on the right,
-// long texts break between words. Notes are subheadings, marked rows are coloured, and so is a good
-// answer.
+// repeated on each new page. The columns share the width as SbTableColumn.width states. A column
+// whose first row is a number is aligned to the right. Long texts break between words. Notes are
+// subheadings; marked rows and the answer yes are coloured.
 void sb_report_table(SbReportPages *pages, const SbTable *table);
 
 // Largest number of columns of a table.

@@ -39,8 +39,9 @@ SbLimit sb_report_study_limit(const SbReportStudyParts *study, int figure);
 // Draws a histogram of each figure that has values.
 void sb_report_study_histograms(SbReportPages *pages, const SbReportStudyParts *study);
 
-// Computes the sensitivities of the figures, if the study's method gives them: sets `tornado`,
-// `tornados` and `names`, which the caller frees.
+// Computes the sensitivities of the figures, if the study's method gives them: sets `tornado`
+// (freed with g_free()), `tornados`, which is 0 before, and `names` (freed with
+// g_ptr_array_unref()). Sets `status` after an error.
 void sb_report_study_make_tornados(SbReportStudyParts *study);
 
 // Draws the tornado diagrams that sb_report_study_make_tornados() made.

@@ -18,5 +18,7 @@ typedef struct {
   size_t count;
 } SbResultsFiles;
 
-// Adds the files of a run to a folder: of sb_output_folder_write(), with SbResultsFiles as data.
+// Adds the files of a run to a folder; `files` is an SbResultsFiles. An SbOutputFill for
+// sb_output_folder_write() (app/base/output.h). Returns false with SB_APP_ERROR_INPUT or
+// SB_APP_ERROR_IO if a file cannot be begun; errors of writing appear when the folder is committed.
 bool sb_results_folder_fill(SbOutputFolder *folder, void *files, GError **error);

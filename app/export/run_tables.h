@@ -7,8 +7,9 @@
 #include "app/table/table.h"
 
 // Returns the figures of short tables (figures.def) with their error estimates, a group after the
-// other: cycle, test rig, dose, shelf, people, life. Of a rig, of the dose and of the shelf only
-// those that were computed; the others state the reason if they were not.
+// other. Of a valve: cycle, dose, shelf, people, and life if there is one. Of the sliding plate:
+// cycle and test rig. Figures of dose and shelf, and of the plate's cycle, that were not computed
+// are omitted; the other groups list them with the reason.
 SbTable *sb_run_figures(const SbRun *run);
 
 // Returns the figures of both seals side by side.
@@ -37,7 +38,8 @@ char *sb_run_value(const SbSummary *summary, int index);
 // estimate.
 char *sb_run_error(const SbSummary *summary, int index);
 
-// Returns the margin of a value to the nearer bound, "1.4 N (5 %)"; negative if the limit is
-// violated; "" if it is not finite. `value`, `low`, `high` (may be infinite) in SI units of
-// `figure` (index of sb_figure()), `error` relative.
+// Returns the margin of a value to the nearer bound, "1.4 N (5 %)", in parentheses relative to the
+// bound; negative if the limit is violated; "" if the margin is not finite or the figure is yes or
+// no. `value`, `low`, `high` (may be infinite) in SI units of `figure` (index of sb_figure()),
+// `error` relative.
 char *sb_run_margin(int figure, double value, double error, double low, double high);

@@ -30,6 +30,7 @@ typedef struct {
 bool sb_still_put(FILE *stream, const SbStill *still, const char *ending, GError **error);
 
 // Draws and writes the file `path`, in the format of still->ending or of the ending of `path`
-// (.png, .svg, .pdf). Returns false with SB_APP_ERROR_INPUT for an unknown ending or an impossible
-// size, SB_APP_ERROR_IO for a full disk and other failures; an earlier file is intact then.
+// (.png, .svg, .pdf). Returns false with SB_APP_ERROR_INPUT for an unknown ending, an impossible
+// size, or a path that may not be written (an input; an existing file with --no-overwrite),
+// SB_APP_ERROR_IO for a full disk and other failures; an earlier file is intact then.
 bool sb_still_write(const SbStill *still, const char *path, GError **error);

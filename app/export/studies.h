@@ -17,10 +17,10 @@ typedef struct {
   const char *subtitle; // names of the files
   const char *hash;     // of the parameters
   const char *scene;    // text that restores the scene, for PNG and SVG
-  const char *ending;   // as SbStill (still.h)
+  const char *ending;   // format of a `path` without an ending, ".png"; NULL: by the path
   const char *stale;    // why the study no longer matches the scene; NULL: it matches
   bool dark;            // theme
-  double width, height; // [logical pixels]; 0: enough for panels and table
+  double width, height; // [logical pixels]; both 0: enough for panels and table
   double scale;         // of a PNG: device pixels per logical pixel; 0: 1
 } SbStudyPage;
 
@@ -29,7 +29,8 @@ typedef struct {
 void sb_study_page_draw(cairo_t *cr, SbRect rect, const SbStudy *study, const SbStudyPage *page);
 
 // Writes the page into the file `path`, in the format of page->ending or of the ending of `path`.
-// Returns false with SB_APP_ERROR_INPUT (size, ending) or SB_APP_ERROR_IO.
+// Returns false with SB_APP_ERROR_INPUT (size, ending) or SB_APP_ERROR_IO; an earlier file is
+// intact then.
 bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *path,
                     GError **error);
 

@@ -19,9 +19,10 @@ size_t sb_study_done(const SbAnswers *answers);
 // Returns the number of samples that are computed and failed.
 size_t sb_study_failed(const SbAnswers *answers);
 
-// Computes the probability that the leakage test of the study fails. A sample that is open has an
-// infinite loss. study->leakage_tests must be above 0. Without a sample that has a loss the
-// probability is NaN and SB_OK is returned. SB_ERROR_RANGE as sb_leakage_odds().
+// Computes the probability that the leakage test of the study is passed. A sample that is open has
+// an infinite loss. study->leakage_tests must be above 0, and shelf.loss_kg_per_year one of the
+// figures of the study. Without a sample that has a loss the probability is NaN and SB_OK is
+// returned. SB_ERROR_RANGE: fewer than ten samples or tests, or invalid rules.
 SbStatus sb_study_leakage(SbLeakageOdds *out, const SbStudyFile *study, const SbAnswers *answers,
                           SbReport *report);
 
@@ -49,8 +50,8 @@ SbTableCell sb_study_cell(char name[64], const SbParam *param, double value);
 
 // Writes comma-separated values, a row for each sample: number from 1, varied parameters [SI],
 // figures [SI] (empty: none), status, codes of validity warnings separated by ";". `value`:
-// [samples][study->vary] parameters of the samples [SI]; NaN: as in the scene. The bytes depend on
-// the arguments alone; errors of writing are left in the stream (ferror()).
+// [samples][study->vary->len] parameters of the samples [SI]; NaN: as in the scene. The bytes
+// depend on the arguments alone; errors of writing are left in the stream (ferror()).
 void sb_study_csv(FILE *stream, const SbStudyFile *study, const double *value,
                   const SbAnswers *answers);
 

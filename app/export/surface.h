@@ -41,7 +41,7 @@ typedef struct {
   char *channel; // owned; scan.channel points to it
 } SbSurfaceChoices;
 
-// Texts of the choice "missing", ended by NULL.
+// Texts of the choice "missing" ("leave", "fill"), ended by NULL.
 extern const char *const sb_surface_missing[];
 
 // Sets the defaults: a plane is subtracted, all else as in the file.
@@ -50,12 +50,13 @@ void sb_surface_choices_init(SbSurfaceChoices *choices);
 // Frees the content and zeroes it.
 void sb_surface_choices_clear(SbSurfaceChoices *choices);
 
-// Sets one choice by the name of its command line option: "form", "missing", "channel", "outliers",
-// "decimal" (sb_data_decimals),
-// "cutoff-short", "cutoff-long", "spacing" (a number with unit; without: µm), "unit",
-// "lateral-unit" (a unit of length). `text` is the value. Returns false with SB_APP_ERROR_INPUT
-// whose message does not contain the name ("a value above 0 is needed"); the choices are then not
-// to be used, but still to be cleared.
+// Sets one choice by the `name` of its command line option to the value `text`: "form" ("none",
+// "plane", "quadratic", "cylinder"), "missing" (sb_surface_missing), "channel" (its name in the
+// file), "outliers" (number of robust deviations), "decimal" ("point" or "comma"), "cutoff-short",
+// "cutoff-long" and "spacing" (a length with its unit), "unit" and "lateral-unit" (the name of a
+// unit of length). Numbers must be above 0. Returns false with SB_APP_ERROR_INPUT whose message
+// does not contain the name ("a value above 0 is needed"); the choices are then not to be used, but
+// still to be cleared.
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
                        GError **error);
 
@@ -72,6 +73,7 @@ char **sb_surface_settings(const char **reason, const SbSurface *surface);
 // `dark`: theme.
 void sb_surface_draw(cairo_t *cr, double width, double height, const SbSurface *surface, bool dark);
 
-// Writes the page in the light theme into the file `path`, by its ending .png, .svg or .pdf. False
-// as sb_still_write() (still.h).
+// Writes the page in the light theme into the file `path`, by its ending .png, .svg or .pdf.
+// Returns false with SB_APP_ERROR_INPUT for another ending or a path that may not be written,
+// SB_APP_ERROR_IO for a full disk and other failures; an earlier file is intact then.
 bool sb_surface_still(const SbSurface *surface, const char *path, GError **error);

@@ -36,5 +36,6 @@ char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_
 void sb_markdown_thesis(FILE *stream, const SbThesisItem *item);
 
 // Draws the item's chart (not NULL) into `stream` in the format of `ending` (".svg", ".png",
-// ".pdf"). Returns false as sb_still_put() (still.h).
+// ".pdf"). Returns false with SB_APP_ERROR_INPUT for another ending, SB_APP_ERROR_IO if it could
+// not be drawn.
 bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending, GError **error);

@@ -35,8 +35,9 @@ typedef struct {
   char *text; // of the document with its unsaved changes
 } SbUnsaved;
 
-// Reads the file `file` of sb_autosave_find(). Returns FALSE, with *out empty, if it cannot be read
-// or is not such a file.
+// Reads the file `file` of sb_autosave_find(). The file stays: the caller removes it once the
+// changes are restored (sb_session_restore(), then sb_autosave_write()) or discarded. Returns
+// FALSE, with *out empty, if it cannot be read or is not such a file.
 gboolean sb_autosave_read(SbUnsaved *out, const char *file);
 
 // Frees the strings; `unsaved` is then empty.

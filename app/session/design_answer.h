@@ -32,7 +32,7 @@ typedef struct {
   double axis[2];                    // its position on the map [SI]
   double value[SB_VARY_MAX];         // [vary]: all varied parameters [SI]
   double figure[SB_DESIGN_FIGURES];  // [SI]; NaN: none
-  double error[SB_DESIGN_FIGURES];   // relative errors of `figure`, as sb_figure_error()
+  double error[SB_DESIGN_FIGURES];   // relative errors of `figure`; NaN: not known
   size_t effects[SB_DESIGN_FIGURES]; // number of effects of each figure
   struct {
     SbParamId id;   // a parameter is changed by

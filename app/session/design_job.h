@@ -44,8 +44,9 @@ void sb_design_job_pause(SbDesignJob *job, bool on);
 void sb_design_job_cancel(SbDesignJob *job);
 
 // To be called once, after `done`: returns the results as far as they were computed, freed by
-// sb_design_answer_free(). *why is the reason if the job ended early (freed by g_free()); NULL: the
-// results are complete. Afterwards the job has no results: sb_design_job_lock() returns NULL.
+// sb_design_answer_free(). *why (freed by g_free()) is the reason if the job ended early, "" if it
+// was cancelled; NULL: the results are complete. Afterwards the job has no results:
+// sb_design_job_lock() returns NULL.
 SbDesignAnswer *sb_design_job_take(SbDesignJob *job, char **why);
 
 // Cancels, waits for the thread and frees the job.

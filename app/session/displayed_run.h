@@ -39,8 +39,9 @@ struct SbDisplayedRun {
   SbDisplayedRun *level; // run without a change, for computing `tangent`; a reference or NULL
 };
 
-// Returns a displayed run with one reference. It takes over the caller's reference `handle`, whose
-// run must exist. `params` is copied.
+// Returns a displayed run with one reference, whose chart has no frames before
+// sb_displayed_run_update(). It takes over the caller's reference `handle`, whose run must exist.
+// `params` is copied.
 SbDisplayedRun *sb_displayed_run_new(SbRunHandle *handle, const SbParams *params, SbRunGrade grade);
 
 // Sets summary, actuations and state of `chart` from the end of the run. Call it once the handle is
@@ -53,8 +54,8 @@ SbDisplayedRun *sb_displayed_run_ref(SbDisplayedRun *shown);
 // Removes a reference; the last one frees the run.
 void sb_displayed_run_unref(SbDisplayedRun *shown);
 
-// Adds to the trace the frames that were published since the last call, at most `limit` of them.
-// Returns whether there were any.
+// Adds to the trace the frames that were published since the last call, at most `limit` of them (0:
+// all). Returns whether there were any.
 bool sb_displayed_run_update(SbDisplayedRun *shown, size_t limit);
 
 // Returns whether the trace contains all published frames.

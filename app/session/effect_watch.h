@@ -1,6 +1,6 @@
-// The effects of a session's main parameters (effect_job.h), recomputed when its values have
-// changed: once they have not changed for a moment and their run has ended. Until then the earlier
-// effects remain available.
+// The effects of the main parameters of a session with a valve (effect_job.h), recomputed when its
+// values have changed: once they have not changed for a moment and their run has ended. Until then
+// the earlier effects remain available.
 #pragma once
 
 #include "app/session/effect_job.h"

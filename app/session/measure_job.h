@@ -5,9 +5,10 @@
 
 typedef struct SbMeasureJob SbMeasureJob;
 
-// Starts to read the file of `data`, which the job owns from now on. `speed` as in
-// sb_measured_load(). done(user) is called once in the main thread at the end, unless the job was
-// freed before. Freed by sb_measure_job_free().
+// Starts to read the file of `data`, which the job owns from now on. `speed` is the speed of the
+// scene's drive [m/s], for a file without displacement (sb_session_drive_speed(); 0: not constant).
+// done(user) is called once in the main thread at the end, unless the job was freed before. Freed
+// by sb_measure_job_free().
 SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void *data),
                                    void *user);
 

@@ -22,10 +22,11 @@ gboolean sb_param_is_changed(const SbParams *params, SbParamId id);
 const char *sb_param_owner(SbParamId id);
 
 // Returns the edit that undo (or redo) would change: "Outer seal: section diameter 1.7 → 1.58 mm",
-// always with the value before it first. NULL: there is none. Translated.
+// always with the value before it first; of an edit that is not of one parameter only what it
+// concerns, "Rubber". NULL: there is none. Translated.
 char *sb_param_undo_text(const SbDocument *document, bool redo);
 
-// Returns the allowed range as sb_param_range(), translated.
+// Returns the allowed range, "0.2 to 20 mm" (translated), or the names of the choices.
 char *sb_param_range_shown(SbParamId id);
 
 // Returns whether name, key, symbol, help, choices or synonyms of a parameter contain `needle`,
@@ -35,5 +36,6 @@ gboolean sb_param_matches(SbParamId id, const char *needle);
 // Changes a value by `count` steps, within its range, as an edit of the session that joins an
 // immediately following one. A step of a real number is a hundredth of it, rounded down to a power
 // of ten in the display unit (|count| < 1: a tenth of that); of an integer 1; of a choice the next
-// one, whatever |count| is. Flags do not change.
+// one, whatever |count| is. `count` is not 0; a negative one steps down. A parameter of kind
+// SB_PARAM_FLAGS does not change.
 void sb_param_step(SbSession *session, SbParamId id, double count);

@@ -36,7 +36,8 @@ typedef struct {
   size_t placed;         // frame to which the playhead returned; G_MAXSIZE: none
 } SbPlayhead;
 
-// Initialises the playhead to wait for the first run at the middle between stages C and D.
+// Initialises the playhead to wait for the first run at the middle between stages C and D, to play
+// a run in 10 s and to loop.
 void sb_playhead_init(SbPlayhead *playhead);
 
 // Returns the index of the frame whose time is nearest to `time` [s]; count > 0.

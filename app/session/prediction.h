@@ -22,9 +22,9 @@ SbPrediction *sb_prediction_new(void);
 // Frees a prediction.
 void sb_prediction_free(SbPrediction *prediction);
 
-// Predicts the run of the values `params`, whose model is `model`, from `base`, which is borrowed
-// as long as the prediction is used. Returns false if it cannot be predicted, or if the values do
-// not differ; the earlier prediction is then lost.
+// Predicts the run of the values `params`, whose model is `model`, from `base`, a complete run.
+// `base` and `model` are borrowed as long as the prediction is used. Returns false if it cannot be
+// predicted, or if the values do not differ; the earlier prediction is then lost.
 bool sb_prediction_make(SbPrediction *prediction, const SbDisplayedRun *base,
                         const SbParams *params, const SbModel *model);
 

@@ -29,10 +29,12 @@ G_DECLARE_FINAL_TYPE(SbSession, sb_session, SB, SESSION, GObject)
 typedef enum {
   SB_SESSION_EMPTY,   // no run yet
   SB_SESSION_RUNNING, // a run is being computed, or about to start
-  SB_SESSION_DONE,    // the displayed run is complete and belongs to the present values
+  SB_SESSION_DONE,    // the displayed run is complete; without automatic runs, or with inconsistent
+                      // values, it can be of earlier values (sb_session_is_stale())
   SB_SESSION_PARTIAL, // the displayed run was cancelled; its frames so far remain. A run that was
                       // cancelled before its first frame changes neither the displayed run nor this
-  SB_SESSION_FAILED   // the last run failed; the last good state is displayed
+  SB_SESSION_FAILED // the last run failed, and the last good state is displayed; or the files have
+                    // errors (sb_session_is_faulty())
 } SbSessionState;
 
 // Returns a session with an untitled valve with all defaults, without a run. Freed by
@@ -61,9 +63,10 @@ gboolean sb_session_is_faulty(const SbSession *session);
 gboolean sb_session_restore(SbSession *session, const char *path, const char *base,
                             const char *text, GPtrArray *conflicts, GPtrArray *issues);
 
-// Writes the document to `path` (NULL: to its own file). Returns FALSE, with nothing written:
-// SB_APP_ERROR_CHANGED if that is the document's own file and another program has changed it since
-// it was read or saved (the user decides, see sb_session_reload()); SB_APP_ERROR_IO if it fails.
+// Writes the document to `path` (NULL: to its own file, which it must have). Returns FALSE, with
+// nothing written: SB_APP_ERROR_CHANGED if that is the document's own file and another program has
+// changed it since it was read or saved (the user decides, see sb_session_reload());
+// SB_APP_ERROR_IO if it fails.
 gboolean sb_session_save(SbSession *session, const char *path, GError **error);
 
 // Returns the state of the document's file on disk as the last check found it.
@@ -103,10 +106,12 @@ const SbMeasured *sb_session_measured(SbSession *session);
 // Returns why the measured data could not be read; NULL: no failure.
 const char *sb_session_measured_failure(SbSession *session);
 
-// Returns the speed of the present drive for sb_measured_load() [m/s]; 0: not constant.
+// Returns the speed of the present drive [m/s]; 0: not constant. sb_measured_load() requires it.
 double sb_session_drive_speed(SbSession *session);
 
-// Adds, changes or (`text` NULL) removes a bookmark or note, as sb_document_put_remark().
+// Adds a bookmark (`text`: its time with unit) or a note, changes the text of an existing one, or
+// removes it (`text` NULL). Returns FALSE with SB_APP_ERROR_INPUT, without a change, if the name or
+// the text is not allowed or there are too many.
 gboolean sb_session_put_remark(SbSession *session, SbRemarkKind kind, const char *name,
                                const char *text, GError **error);
 
@@ -135,7 +140,7 @@ void sb_session_camera(SbSession *session, double *azimuth, double *elevation);
 gboolean sb_session_edit(SbSession *session, SbParamId id, const char *text);
 
 // Sets a value [SI]. Successive calls for the same parameter are one step for undo, until
-// sb_session_end_merge(). Returns FALSE if it is out of range.
+// sb_session_end_merge(). Returns FALSE, with the value in force unchanged, if it is out of range.
 gboolean sb_session_edit_value(SbSession *session, SbParamId id, double value);
 
 // Sets override[count] as one step for undo. Returns FALSE if one was out of range and therefore
@@ -149,11 +154,13 @@ void sb_session_end_merge(SbSession *session);
 // there is none.
 gboolean sb_session_set_rubber(SbSession *session, const char *name, GPtrArray *issues);
 
-// Sets the section of both seals as sb_document_set_section().
+// Sets the section of both seals to `section` with its radial height [m], as sb_seal_file_read()
+// read them from `path`.
 void sb_session_set_section(SbSession *session, const char *path, const SbSealDrawing *section,
                             double height);
 
-// Sets the groove's outline as sb_document_set_groove(); `path` NULL: none.
+// Sets the groove's outline as sb_groove_file_read() read it from `path`; `path` NULL removes it
+// (only if sb_document_may_drop_groove()), and `groove` is not used.
 void sb_session_set_groove(SbSession *session, const char *path, const SbGrooveDrawing *groove);
 
 // Removes the document's own value, so that that of the valve, the parent or the catalogue is in
@@ -214,7 +221,8 @@ SbEditLatency sb_session_latency(SbSession *session);
 // Starts a run of the present values immediately, without the delay after an edit.
 void sb_session_start(SbSession *session);
 
-// Cancels the run that is being computed; its frames so far remain. Does nothing if there is none.
+// Cancels the run that is being computed or about to start; its frames so far remain. Does nothing
+// if there is none.
 void sb_session_stop(SbSession *session);
 
 // Sets whether edits start runs (initially they do).
@@ -227,11 +235,11 @@ const SbRun *sb_session_run(SbSession *session);
 // number in *count; NULL and 0: none. Borrowed until the next "run-changed".
 const SbFrame *sb_session_frames(SbSession *session, size_t *count);
 
-// Returns how the displayed run was computed.
+// Returns how the displayed run was computed; SB_GRADE_WHOLE without a run.
 SbRunGrade sb_session_grade(SbSession *session);
 
-// Returns the same as a translated text; NULL for SB_GRADE_WHOLE, whose figures are those of
-// `sealbench run`.
+// Returns how the displayed run was computed as a translated text; NULL for SB_GRADE_WHOLE, whose
+// figures are those of `sealbench run`.
 char *sb_session_grade_text(SbSession *session);
 
 // Returns whether the displayed run can be exported: it has ended, with the grade SB_GRADE_WHOLE.
@@ -291,8 +299,8 @@ int sb_session_pin_slot(SbSession *session, size_t index);
 // which is then not drawn.
 void sb_session_draw_pin(SbSession *session, size_t index, gboolean on);
 
-// Writes the run of pin `index` for charts: its view, name, style and the frame at the position of
-// the playhead. Returns FALSE while there is no run.
+// Writes the run of pin `index` for charts: its view, name, style (0 if it is not drawn) and the
+// frame at the position of the playhead. Returns FALSE while there is no run.
 gboolean sb_session_pin_chart(SbSession *session, size_t index, SbChartPin *out);
 
 // Returns a reference to the run of pin `index`, released by sb_run_handle_unref(); NULL while
@@ -306,14 +314,15 @@ const SbSummary *sb_session_pin_summary(SbSession *session, size_t index);
 gboolean sb_session_pin_failed(SbSession *session, size_t index);
 
 // Sets the values of the document to those of pin `index`, as one step for undo; its run is
-// displayed immediately.
+// displayed immediately if it is computed, else started as after an edit.
 void sb_session_use_pin(SbSession *session, size_t index);
 
 // ---- Displayed runs of earlier values ----
 
-// Returns whether the displayed run belongs to other values than the present ones. Then *id (may be
-// NULL) is the SbParamId in which it differs, -1 if several do, and *value (may be NULL) the
-// displayed run's value [SI].
+// Returns whether the displayed run belongs to other values or drawings than the present ones. Then
+// *id (may be NULL) is the SbParamId of the only difference, else -1, and *value (may be NULL) is
+// the displayed run's value of that parameter [SI], without a meaning if *id is -1. Both are
+// unchanged after FALSE.
 gboolean sb_session_is_stale(SbSession *session, int *id, double *value);
 
 // Returns whether the displayed run belongs to earlier values and no run is about to replace it:
@@ -341,20 +350,23 @@ const char *sb_session_failure(SbSession *session);
 
 // ---- The playhead ----
 
-// Moves the playhead to frame `frame`, at most the last one.
+// Moves the playhead to frame `frame`, at most the last one; on the last one it follows a growing
+// run. Does nothing without frames.
 void sb_session_set_playhead(SbSession *session, size_t frame);
 
-// Moves the playhead to a fraction `share`, 0 to 1, of the time from a stage of the first cycle to
-// the next event. Does nothing if the run does not reach the stage.
+// Stops playing and moves the playhead to a fraction `share`, 0 to 1, of the time from a stage of
+// the first cycle to the next event. Does nothing if the run does not reach the stage.
 void sb_session_show_stage(SbSession *session, SbStage stage, double share);
 
 // Returns the displayed frame; NULL: none.
 const SbFrame *sb_session_frame(SbSession *session);
 
-// Moves the playhead by a number of frames, back if negative; stops at the ends.
+// Stops playing and moves the playhead by a number of frames, back if negative, at most to the
+// ends.
 void sb_session_step(SbSession *session, int frames);
 
-// Moves the playhead to the next event (direction > 0) or the one before (direction < 0).
+// Stops playing and moves the playhead to the next event or bookmark (direction > 0) or the one
+// before (direction < 0); without one, to the last or first frame.
 void sb_session_step_event(SbSession *session, int direction);
 
 // Returns whether the playhead moves with time.

@@ -14,7 +14,7 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
                                void *data);
 
 // To be called once, after `done`: returns the study, freed by g_free(). NULL: it was cancelled or
-// failed; *why is then a sentence, borrowed from the job.
+// failed; *why is then a sentence, borrowed from the job, and otherwise not changed.
 SbStudy *sb_study_job_take(SbStudyJob *job, const char **why);
 
 // Cancels, waits for the thread and frees the job.

@@ -15,8 +15,10 @@ const char *sb_verdict_word(int kind);
 // Returns "yes", "no" or "not known". Static.
 const char *sb_verdict_answer(SbAnswer answer);
 
-// Returns the figure that decides, with its limit: "26 N of 30 N", "1.2 MPa over 0.55 MPa"; empty
-// or "not known" without one. `summary` is the run's, `verdict` its answer to the question.
+// Returns the value of the figure that decides, with its limit: "26 N of 30 N", "1.2 MPa over 0.55
+// MPa". If none decides, returns the value of the main figure of the question, without a limit. A
+// value that is not known gives "not known", or "" for SB_VERDICT_LEAK. `summary` is the run's,
+// `verdict` its answer to the question.
 char *sb_verdict_figure_text(const SbSummary *summary, int kind, const SbVerdict *verdict);
 
 // As sb_verdict_figure_text(), with numbers in ASCII, for standard output.

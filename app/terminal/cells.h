@@ -3,8 +3,9 @@
 //
 // (0, 0) is the top left cell, x counts columns, y rows downwards. A cell contains one character of
 // one column; wider characters and characters without a width (control characters, combining marks)
-// are replaced or omitted. In an ASCII grid every other character is replaced by one of ASCII, so
-// the functions that draw need not care. Drawing outside of the grid is clipped.
+// are replaced or omitted. In an ASCII grid every other character is replaced by one of ASCII (not
+// by sb_cells_fill()), so the functions that draw need not care. Drawing outside of the grid is
+// clipped.
 #pragma once
 
 #include "app/draw/theme.h"
@@ -56,7 +57,8 @@ void sb_cells_finish(SbCells *cells);
 // Returns a colour of a theme as 0xRRGGBB; its opacity is ignored.
 uint32_t sb_cell_color(SbColor color);
 
-// Sets all cells of a rectangle to one character.
+// Sets all cells of a rectangle to one character, which must have one column; it is not replaced in
+// an ASCII grid.
 void sb_cells_fill(SbCells *cells, SbCellRect rect, uint32_t glyph, SbPen pen);
 
 // Sets one cell. Does nothing outside of the grid.
@@ -95,12 +97,13 @@ SbColors sb_colors_of_environment(void);
 // Returns true if LC_ALL, LC_CTYPE and LANG state no UTF-8, so that only ASCII may be sent.
 bool sb_cells_ascii_environment(void);
 
-// Returns the index of the terminal's colour that is nearest to `rgb` (0xRRGGBB), among the first
-// 16 or, for SB_COLORS_256, the first 256.
+// Returns the index of the terminal's colour that is nearest to `rgb` (0xRRGGBB): for SB_COLORS_16
+// among 0 to 15, for SB_COLORS_256 among 16 to 255, because users change the first 16. Main thread.
 int sb_colors_nearest(SbColors colors, uint32_t rgb);
 
 // Returns the characters as UTF-8 lines that end with a newline, without trailing blanks.
 char *sb_cells_to_text(const SbCells *cells);
 
-// Prints the grid as lines with escape sequences for colours, for a terminal that scrolls.
+// Prints the grid as lines with escape sequences for colours and bold text (no other style), for a
+// terminal that scrolls; with SB_COLORS_NONE the text of sb_cells_to_text().
 void sb_cells_print(const SbCells *cells, SbColors colors, FILE *stream);

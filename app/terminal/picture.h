@@ -29,7 +29,7 @@ static inline bool sb_pictures_are_pixels(SbPictures pictures) {
 }
 
 // The functions below scale the full picture of the list to the cells, in both directions. `text`
-// (sb_text_create()) lays out texts.
+// (sb_text_create()) lays out texts. `rect` must be inside of the grid.
 
 // Draws the list into the cells of `rect` as half blocks, and its texts as characters over them
 // where there is space.

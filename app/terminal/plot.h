@@ -21,7 +21,7 @@ typedef struct {
 
 // How a curve is drawn.
 typedef struct {
-  uint32_t ink;  // colour as SbPen.ink
+  uint32_t ink;  // colour, 0xRRGGBB or SB_CELL_OWN
   uint8_t rank;  // of curves that share a cell, the highest one colours it (the later of equals)
   uint8_t style; // SB_CELL_BOLD or 0
   int on, off;   // dash: dots drawn and dots omitted; off 0: solid

@@ -38,7 +38,7 @@ typedef enum {
 typedef struct {
   SbKeyKind kind;
   uint32_t character;       // of SB_KEY_CHARACTER: Unicode; with `control` a small letter; else 0
-  bool control, shift, alt; // modifiers that were pressed
+  bool control, shift, alt; // modifiers that were pressed; of a mouse event only `shift` is known
   int x, y;                 // cell of a mouse event: column and row; of a key 0
 } SbKey;
 
