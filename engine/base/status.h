@@ -75,15 +75,14 @@ enum {
 };
 
 // Description of an error, in memory of the caller. The fields are defined after an error only, and
-// need no initialisation. If `residual` and `iteration` are read, set the report to {0} before the
-// call: functions that are not iterative leave them unchanged.
+// need no initialisation.
 typedef struct {
   SbStatus status;
   SbCause cause;
   char text[SB_TEXT]; // one sentence for the user, without a line break
   int input;       // number of the input at fault, 0 if none; its key: sb_input_key() of params.h
-  double residual; // last residual of the iteration; only iterative solvers set it
-  int iteration;   // number of iterations done; only iterative solvers set it
+  double residual; // last residual of the iteration; NaN: the error is of no iteration
+  int iteration;   // number of iterations done; 0 with a residual of NaN
 } SbReport;
 
 // Returns the fixed text of a status code; static, never NULL.
@@ -91,7 +90,7 @@ const char *sb_status_text(SbStatus status);
 
 // Writes `status` and a formatted sentence to `report` (NULL: nothing is written), without an input
 // and with SB_CAUSE_OTHER, and returns `status`. Use: `return sb_fail(report, SB_ERROR_RANGE,
-// "speed %g m/s ...", u);`. The fields `residual` and `iteration` are not changed.
+// "speed %g m/s ...", u);`. Sets `residual` to NaN and `iteration` to 0.
 SbStatus sb_fail(SbReport *report, SbStatus status, const char *format, ...) SB_PRINTF(3, 4);
 
 // Does the same as sb_fail() and also stores the number of the input at fault (0: none).
