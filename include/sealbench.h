@@ -87,8 +87,9 @@ typedef struct {
   const char *symbol;   // "g"; "" if none
   const char *unit;     // SI, "1" if dimensionless
   const char *shown;    // display unit, "" if none
-  const char *choices;  // "first|second": the value is the index of a choice, or a bit mask of
-                        // flags; else NULL
+  const char *choices;  // "first|second": the value is the index of a choice; of output.views and
+                        // output.studies a bit mask (1: the first), as text "first, second";
+                        // else NULL
   const char *label;    // "Radial space"
   const char *help;     // one line
   double low, high;     // allowed range, SI, inclusive; both 0 for choices

@@ -72,9 +72,10 @@ typedef struct {
   // A point of the axis [3] [m]. NULL: DXF: the centre line, else the origin; STEP: found with the
   // direction; STL: the middle of the mesh.
   const double *through;
-  // Position of the cutting half-plane about the axis [rad], from the first of the file's axes that
-  // is turned with the axis. NULL: STEP: 37.7 degrees; STL: through a vertex farthest from the
-  // axis.
+  // Angle of the cutting half-plane about the axis, right-handed [rad]; not for DXF. 0: STEP: the y
+  // axis of the file, turned with x when x is turned to the axis by the shortest way; STL: the
+  // file's axis after the one nearest to the axis (x after z), made perpendicular to it. NULL:
+  // STEP: 37.7 degrees; STL: through a vertex farthest from the axis.
   const double *angle;
   double join;  // DXF: largest gap between ends that are one point [m]; 0: 1 um
   double shift; // added to x after `flip` [m]

@@ -2,8 +2,8 @@
 //
 // A series has two columns of any table (app/base/text_table.h), named with their units: "time [s]"
 // and the values. Every line after the header must be a row, at most SB_MODEL_SERIES_MAX. Times
-// must increase strictly; the series that is read begins at time 0. The engine interpolates
-// linearly.
+// must increase strictly; the first one is subtracted from all, so that the series begins at time
+// 0. The engine interpolates linearly.
 //
 // All functions return false with at least one issue (file, line, column, allowed range) if the
 // file is not such a series, is larger than SB_SERIES_BYTES_MAX or has a value out of range; *out

@@ -14,7 +14,7 @@ typedef struct {
   bool single;   // the member is a float
 } SbFrameQuantity;
 
-// Returns the quantity of a key ("force_N"); NULL: there is none. Static.
+// Returns the quantity of a key ("force_N"); NULL: there is none. Static. Needs no set-up.
 const SbFrameQuantity *sb_catalogue_quantity(const char *key);
 
 // Fills the catalogues, creates sb_catalogue_locale and switches off the error handler of GSL, at

@@ -28,7 +28,9 @@ void sb_gl_atlas_destroy(SbGlAtlas *atlas);
 // the atlas is full: then call sb_gl_atlas_clear() and start the picture again.
 bool sb_gl_atlas_line(SbGlAtlas *atlas, const char *text, double size, int weight, SbGlLine *line);
 
-// Removes all lines; with `grow` the texture becomes twice as large, up to 8192 x 8192 texels.
+// Removes all lines; with `grow` the texture becomes twice as large, up to 8192 x 8192 texels. The
+// first clear of a picture is without `grow`, further ones are with it; after four of them a
+// picture that still has no room is drawn without the lines that have none.
 void sb_gl_atlas_clear(SbGlAtlas *atlas, bool grow);
 
 // Returns the texture, valid until the next change of the atlas.

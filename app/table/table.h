@@ -11,13 +11,14 @@
 
 // A column. A field that is NULL leaves the column out of the outputs of that field.
 typedef struct {
-  const char *key;    // heading in CSV, name of the member in JSON
-  const char *layout; // in text: one "%12s" (right-aligned) or "%-12s" with the least number of
-                      // characters, "*" for the longest cell, between texts that an empty cell
-                      // without a width leaves out: " per %-10s"
-  const char *label;  // heading in HTML, Markdown and reports
-  const char *head;   // heading in text; NULL: none
-  double width;       // on pages of a report, relative to the other columns there
+  const char *key; // heading in CSV, name of the member in JSON
+  // In text: one "%12s" (right-aligned) or "%-12s" with the least number of characters, "%*s" or
+  // "%-*s" for the width of the longest cell, or "%s", which an empty cell leaves out with the
+  // texts around it: ", %s". Nothing else is written between columns.
+  const char *layout;
+  const char *label; // heading in HTML, Markdown and reports
+  const char *head;  // heading in text; NULL: none
+  double width;      // on pages of a report, relative to the other columns there, > 0
 } SbTableColumn;
 
 typedef enum { SB_CELL_ABSENT, SB_CELL_TEXT, SB_CELL_NUMBER, SB_CELL_ANSWER } SbTableCellKind;

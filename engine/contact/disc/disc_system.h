@@ -68,8 +68,8 @@ double sb_disc_system_arc(const SbDiscSystem *system, SbDiscPoint to, SbDiscVect
                           double length, SbDiscAction action);
 
 // Solves the thesis' disc (disc_thesis.c). Called by sb_fit_disc() with a problem that
-// sb_fit_solve() has checked, if the squeeze is positive; the sizes in *out are set. Errors as for
-// sb_fit_solve().
+// sb_fit_solve() has checked, if the squeeze is positive. Reads out->section_diameter_fitted, which
+// the caller has set. Errors as for sb_fit_solve().
 SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report);
 
 // Returns the smooth step of the known pressure: 1 at tau = -1, 0 at tau = 1.

@@ -149,7 +149,8 @@ static inline bool sb_figure_is_estimate(const SbFigure *figure) {
 // Returns the index of the figure with this path ("seals.outer.load_N"); -1 if there is none.
 int sb_figure_find(const char *path);
 
-// Returns the value of figure `index` in SI; NaN: not computed.
+// Returns the value of figure `index` in the unit SbFigure.si (angles in degrees and losses in kg
+// per 365 days, all others in SI); NaN: not computed.
 double sb_figure_value(const SbSummary *summary, int index);
 
 // Returns why figure `index` was not computed; NULL if it has a finite value. Static, or borrowed
