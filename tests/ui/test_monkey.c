@@ -176,7 +176,16 @@ static void poke(void) {
   }
 }
 
+// An open menu takes all pointer events, so a user closes it before another widget can be used.
+static void close_menu(void) {
+  GtkWidget *grab = gtk_grab_get_current();
+  if (GTK_IS_MENU_SHELL(grab)) {
+    gtk_menu_shell_cancel(GTK_MENU_SHELL(grab));
+  }
+}
+
 static void one_action(void) {
+  close_menu();
   static const char *const pages[] = {"valve",     "valve",       "valve", "design",
                                       "calibrate", "propellants", "thesis"};
   SbSession *session = sb_window_session(SB_WINDOW(window));
