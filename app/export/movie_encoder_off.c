@@ -6,9 +6,8 @@ struct SbMovieEncoder {
 };
 
 const char *sb_movie_missing(SbMovieFormat format) {
-  return "this build of Sealbench writes no films (Meson's option `video`): write frames/%04d.png, "
-         "a "
-         "sequence of pictures";
+  return "this build of Sealbench writes no movies (Meson's option `video`): write "
+         "frames/%04d.png, a sequence of pictures";
 }
 
 SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
