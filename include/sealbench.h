@@ -156,8 +156,8 @@ const char *sb_scene_text(SbScene *scene);
 // ---- Parameters ----
 
 // Sets a parameter from a text: a number with or without unit ("1.63 mm"), or the name of a choice
-// ("reynolds"). After an error (_INPUT: unknown key, or a text that is no value of it, also a
-// number out of range) nothing has changed. Results of the last run remain.
+// ("reynolds"). After an error (_INPUT: unknown key, or a text that is not a valid value of it,
+// such as a number out of range) nothing has changed. Results of the last run remain.
 SbSceneStatus sb_scene_set_text(SbScene *scene, const char *key, const char *text);
 
 // Sets a parameter from a number in SI (the index of a choice). After an error (_INPUT: unknown

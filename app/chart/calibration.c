@@ -92,8 +92,8 @@ static void draw_loop(Draw *d, SbRect rect, size_t index, const Ranges *r) {
   char before[SB_FORMAT_MAX], after[SB_FORMAT_MAX];
   g_autofree char *rms = points != NULL && isfinite(of->before_rms)
                              ? g_strdup_printf(_("rms %s \xe2\x86\x92 %s"),
-                                               sb_format_digits(before, of->before_rms, 2),
-                                               sb_format_digits(after, points->rms, 2))
+                                               sb_format_digits(before, of->before_rms, 3),
+                                               sb_format_digits(after, points->rms, 3))
                              : g_strdup(_("does not slide"));
   sb_canvas_text(c, rms, &name, rect.x + rect.width, strip.y - 12, SB_RIGHT);
   if (index == 0) {

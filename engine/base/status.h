@@ -81,8 +81,8 @@ typedef struct {
   SbCause cause;
   char text[SB_TEXT]; // one sentence for the user, without a line break
   int input;       // number of the input at fault, 0 if none; its key: sb_input_key() of params.h
-  double residual; // last residual of the iteration; NaN: the error is of no iteration
-  int iteration;   // number of iterations done; 0 with a residual of NaN
+  double residual; // last residual of the iteration; NaN if the error is not from an iteration
+  int iteration;   // number of iterations done; 0 if the residual is NaN
 } SbReport;
 
 // Returns the fixed text of a status code; static, never NULL.

@@ -546,7 +546,8 @@ static void test_thesis_readings(void) {
   g_assert_cmpfloat(solve(&in).load_per_length, >, arc);
   in.variant = SB_DISC_THESIS_PROJECTED;
   g_assert_cmpfloat(solve(&in).load_per_length, <, arc);
-  // Its number is that of fluid on both flanks in the other disc, whose section such fluid shrinks.
+  // The other disc has a variant of the same number, fluid on both flanks, which shrinks its
+  // section. That shrinkage is larger than this squeeze and does not apply to the thesis' disc.
   in.pressure = 0.2e6;
   in.poisson_ratio = 0.4;
   in.radial_space = in.section_diameter * (1 - 0.012);

@@ -197,7 +197,8 @@ static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *
                               text->matrix.ragged, columns);
   }
   if (matrix && sb_scan_is_placed(text)) {
-    return sb_app_error_input(error, "its first column has even steps as positions: remove it");
+    return sb_app_error_input(error, "its first column has even steps, as positions have and "
+                                     "heights have not: remove the positions");
   }
   if (!find_units(&h, out, text, choices, matrix ? h.bare && !spaced : columns > 1, error)) {
     return false;

@@ -41,7 +41,7 @@ typedef struct {
   SbStatus (*respeed)(SbSealState *state, const SbSlidingTask *task, const SbSlidingBody *body,
                       SbReport *report);
   // Computes lambda, real area and kinetic friction from film_central, which the caller has set. If
-  // `shares` and the film is no closed form, `roughness` is 1 and the caller has set
+  // `shares` and the film is not a closed form, `roughness` is 1 and the caller has set
   // real_area_share, boundary_load and friction_viscous too. Friction is the full one, of which a
   // dragged section may carry only a part. May change the values at rest.
   SbStatus (*refilm)(SbSealState *state, const SbSlidingTask *task, double roughness,
