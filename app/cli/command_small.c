@@ -256,13 +256,17 @@ int sb_command_open(int argc, char **argv) {
   if (!sb_cli_parse(&argc, &argv, NULL, 0, 1, NULL)) {
     return SB_EXIT_INPUT;
   }
+  g_autofree char *file = argc > 1 ? sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_RUN) : NULL;
+  if (file != NULL && strstr(file, "://") == NULL && access(file, R_OK) != 0) {
+    return sb_cli_fail("%s: %s", file, g_strerror(errno));
+  }
   // Beside this program (installed, or in the build folder), else on the path.
   static const char *const places[] = {"sealbench-gtk", "ui/sealbench-gtk", "../ui/sealbench-gtk"};
   char self[PATH_MAX];
   ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
   self[MAX(length, 0)] = '\0';
   g_autofree char *folder = g_path_get_dirname(self);
-  char *arguments[] = {(char *)"sealbench-gtk", argc > 1 ? argv[1] : NULL, NULL};
+  char *arguments[] = {(char *)"sealbench-gtk", file, NULL};
   for (size_t i = 0; length > 0 && i < G_N_ELEMENTS(places); i++) {
     g_autofree char *path = g_build_filename(folder, places[i], NULL);
     if (access(path, X_OK) == 0) {

@@ -40,6 +40,7 @@ static void test_mistyped(void) {
   g_autofree char *near_valve = g_strndup(valve, strlen(valve) - 1);
   SAYS(1, "No such file or directory, do you mean piston.valve?", "check", near_valve);
   SAYS(1, "xyzzy.scene: No such file or directory\n", "run", "xyzzy.scene");
+  SAYS(1, "xyzzy.scene: No such file or directory\n", "open", "xyzzy.scene");
   SAYS(1, "do you mean persson?", "plan", scene, "--set", "models.surface=person");
 }
 
