@@ -31,7 +31,7 @@ def change_it_and_look(app, folder):
     wait("as before", lambda: app.run_done() and round(app.breakaway(), 1) == 28.7)
 
 
-def keep_the_valve_to_compare_with(app, folder):
+def pin_the_valve_for_comparison(app, folder):
     app.key("ctrl+p")
     wait("the chip", lambda: app.label(r"^as now$"))
 
@@ -44,7 +44,7 @@ def see_where_good_valves_are(app, folder):
     wait("time to ask", lambda: app.has("push button", "Find best"))
 
 
-def say_what_the_valve_must_keep(app, folder):
+def set_the_limits(app, folder):
     app.edit("Minimum Squeeze, outer seal", "10")
     app.press("toggle button", "Bounds")
     app.press("check box", "Meet all limits with a probability of 99.9 % over the tolerances")
@@ -90,7 +90,7 @@ def write_the_report(app, folder):
 
 
 STEPS = [open_the_thesis_cycle, find_what_you_want_to_change, change_it_and_look,
-         keep_the_valve_to_compare_with, see_where_good_valves_are, say_what_the_valve_must_keep,
+         pin_the_valve_for_comparison, see_where_good_valves_are, set_the_limits,
          find_the_best, put_it_into_the_valve, write_the_report]
 
 
