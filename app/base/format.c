@@ -119,7 +119,8 @@ const char *sb_quantity_unit(SbQuantity quantity, double value) {
   return choose_unit(quantity, value).unit;
 }
 
-void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relative_error) {
+static void format(SbFormatted *out, SbQuantity quantity, double value, int digits,
+                   double relative_error) {
   Unit unit = choose_unit(quantity, isfinite(value) ? value : 0);
   g_strlcpy(out->unit, unit.unit, sizeof out->unit);
   if (!isfinite(value)) {
@@ -132,25 +133,32 @@ void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relat
   if (quantity == SB_QUANTITY_FORCE && fabs(shown) < 5e-4) {
     shown = 0;
   }
-  int digits = relative_error > 0 ? 4 : 3;
   int decimals = sb_format_decimals(shown, digits, relative_error);
   write_number(out->number, sizeof out->number, shown, decimals);
+}
+
+void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relative_error) {
+  format(out, quantity, value, relative_error > 0 ? 4 : 3, relative_error);
+}
+
+static char *joined(char *out, const SbFormatted *parts) {
+  g_strlcpy(out, parts->number, SB_FORMAT_MAX);
+  if (parts->unit[0]) {
+    g_strlcat(out, NO_BREAK, SB_FORMAT_MAX);
+    g_strlcat(out, parts->unit, SB_FORMAT_MAX);
+  }
+  return out;
 }
 
 char *sb_format_text(char *out, SbQuantity quantity, double value, double relative_error) {
   SbFormatted parts;
   sb_format(&parts, quantity, value, relative_error);
-  g_strlcpy(out, parts.number, SB_FORMAT_MAX);
-  if (parts.unit[0]) {
-    g_strlcat(out, NO_BREAK, SB_FORMAT_MAX);
-    g_strlcat(out, parts.unit, SB_FORMAT_MAX);
-  }
-  return out;
+  return joined(out, &parts);
 }
 
-char *sb_format_given(char *out, SbQuantity quantity, double value) {
+char *sb_format_trimmed(char *out, SbQuantity quantity, double value, int digits) {
   SbFormatted parts;
-  sb_format(&parts, quantity, value, 0);
+  format(&parts, quantity, value, digits, 0);
   if (strchr(parts.number, '.')) {
     size_t end = strlen(parts.number);
     while (parts.number[end - 1] == '0') {
@@ -158,12 +166,11 @@ char *sb_format_given(char *out, SbQuantity quantity, double value) {
     }
     parts.number[parts.number[end - 1] == '.' ? end - 1 : end] = 0;
   }
-  g_strlcpy(out, parts.number, SB_FORMAT_MAX);
-  if (parts.unit[0]) {
-    g_strlcat(out, NO_BREAK, SB_FORMAT_MAX);
-    g_strlcat(out, parts.unit, SB_FORMAT_MAX);
-  }
-  return out;
+  return joined(out, &parts);
+}
+
+char *sb_format_given(char *out, SbQuantity quantity, double value) {
+  return sb_format_trimmed(out, quantity, value, 6);
 }
 
 char *sb_format_film_tick(char *out, double length) {

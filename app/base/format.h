@@ -44,13 +44,18 @@ void sb_format(SbFormatted *out, SbQuantity quantity, double value, double relat
 // Writes number and unit with a no-break space, "27.4 N".
 char *sb_format_text(char *out, SbQuantity quantity, double value, double relative_error);
 
-// As sb_format_text(), for a value that was given, not computed: without trailing zeros.
+// As sb_format_text() without an error, with `digits` significant digits and without trailing
+// zeros.
+char *sb_format_trimmed(char *out, SbQuantity quantity, double value, int digits);
+
+// As sb_format_trimmed() with six digits, for a value that was given, not computed.
 char *sb_format_given(char *out, SbQuantity quantity, double value);
 
-// Writes a number without unit with `decimals` decimals; "0" for zero.
+// Writes a number without unit with `decimals` decimals, at most 12; negative: rounded to tens,
+// hundreds, ... "0" for zero, an en dash for NaN and infinity.
 char *sb_format_fixed(char *out, double value, int decimals);
 
-// Writes a number without unit with `digits` significant digits.
+// As sb_format_fixed(), with `digits` significant digits.
 char *sb_format_digits(char *out, double value, int digits);
 
 // Returns the number of decimals with which a value displayed as `shown` is printed: the rounding

@@ -9,8 +9,9 @@
 // Of a body that the half-plane cuts into several outlines, the profile is the outline with the
 // largest revolved volume; `solid` is always the complete body.
 //
-// Coordinates: x along the axis of the bodies, as in the drawing, then reversed (`flip`) and moved
-// (`shift`); r is the distance from the axis. The valve requires x to point out of the canister.
+// Coordinates: x along the axis of the bodies, 0 where the file's origin projects on it, then
+// reversed (`flip`) and moved (`shift`); r is the distance from the axis. The largest component of
+// an axis that was found is positive. The valve requires x to point out of the canister.
 #pragma once
 
 #include "app/base/reader.h"
@@ -80,7 +81,7 @@ typedef struct {
   double join;  // DXF: largest gap between ends that are one point [m]; 0: 1 um
   double shift; // added to x after `flip` [m]
   bool flip;    // reverse x: for a drawing with the canister on its right
-  bool section; // DXF: outlines are full sections anywhere, not half-sections about an axis
+  bool section; // DXF: full sections anywhere; the axis is a line y = constant below all of them
 } SbCadChoices;
 
 // Reads the file `path`; its format follows from its content. Returns NULL with an error, mostly

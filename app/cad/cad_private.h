@@ -58,9 +58,9 @@ double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
 
 // Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the
-// axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines(): the outline
-// with the largest revolved volume; or body->why, unless that is set. Adds a warning to `cad` if
-// there are several outlines.
+// axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines() (10 nm): the
+// outline with the largest revolved volume; or body->why, unless that is set. Adds a warning to
+// `cad` if there are several outlines.
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
 // Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
@@ -76,11 +76,11 @@ void sb_cad_body_free(SbCadBody *body);
 // one of revolution. To be called once.
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
 
-// Appends the lands, bores and grooves of the body's profile to body->features.
+// Appends lands, bores and grooves of a counter-clockwise profile, as sb_cad_settle() has done.
 void sb_cad_features(SbCadBody *body);
 
 // Returns the sentence SbCad.axis for an axis along `direction` [3] through the point `through` [3]
-// [m]; NULL: not stated. Freed by g_free().
+// [m]; `through` NULL: it names no point. Freed by g_free().
 char *sb_cad_axis_text(const double *through, const double *direction);
 
 // Returns a drawing without bodies. `format` is static. Freed by sb_cad_free().

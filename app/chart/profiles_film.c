@@ -91,7 +91,7 @@ static void roughness_label(SbProfileChart *s, double y) {
     return;
   }
   char value[SB_FORMAT_MAX], text[128];
-  sb_format_given(value, SB_QUANTITY_FILM, sb_model_sigma(s->data->run.model));
+  sb_format_trimmed(value, SB_QUANTITY_FILM, sb_model_sigma(s->data->run.model), 3);
   g_snprintf(text, sizeof text, _("roughness \xcf\x83 %s"), value);
   const SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_NOTE, 400, SB_ROLE_SECOND);
   const double x =

@@ -62,7 +62,7 @@ static void fluid_label(SbProfileChart *s, double from, double to, double pressu
   double x1 = fmin(sb_axis_at(&s->at.x, to * 1e3), s->at.plot.x + s->at.plot.width);
   double y = sb_axis_at(&s->at.y, pressure * 1e-6);
   char value[SB_FORMAT_MAX], text[64];
-  sb_format_given(value, SB_QUANTITY_PRESSURE, pressure);
+  sb_format_trimmed(value, SB_QUANTITY_PRESSURE, pressure, 3);
   g_snprintf(text, sizeof text, _("fluid %s"), value);
   SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_LABEL, 400, SB_ROLE_FLUID);
   if (sb_canvas_text_width(s->canvas, text, &style) + 8 > x1 - x0) {
@@ -81,7 +81,7 @@ static void common_label(SbProfileChart *s) {
     return;
   }
   char value[SB_FORMAT_MAX], text[96];
-  sb_format_given(value, SB_QUANTITY_PRESSURE, common);
+  sb_format_trimmed(value, SB_QUANTITY_PRESSURE, common, 3);
   g_snprintf(text, sizeof text, _("fluid %s on both sides"), value);
   SbTextStyle style = sb_canvas_style(s->canvas, SB_TYPE_NOTE, 400, SB_ROLE_FLUID);
   double left = s->at.plot.x + 4, right = s->at.plot.x + s->at.plot.width - 4;

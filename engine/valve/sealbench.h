@@ -1,4 +1,4 @@
-// Everything of the engine that app/ uses, by one include.
+// What most of app/ uses of the engine, by one include.
 #pragma once
 
 #include "engine/base/status.h"

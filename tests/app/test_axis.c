@@ -152,6 +152,10 @@ static void check_formats(void) {
   g_assert_cmpstr(sb_format_given(text, SB_QUANTITY_FILM, 1e-6), ==, "1" SPACE "µm");
   g_assert_cmpstr(sb_format_given(text, SB_QUANTITY_PRESSURE, 0), ==, "0" SPACE "MPa");
   g_assert_cmpstr(sb_format_given(text, SB_QUANTITY_FORCE, 40), ==, "40" SPACE "N");
+  g_assert_cmpstr(sb_format_given(text, SB_QUANTITY_FORCE, 34.25), ==, "34.25" SPACE "N");
+  g_assert_cmpstr(sb_format_given(text, SB_QUANTITY_PRESSURE, 0.5503e6), ==, "0.5503" SPACE "MPa");
+  g_assert_cmpstr(sb_format_trimmed(text, SB_QUANTITY_PRESSURE, 0.5503e6, 3), ==,
+                  "0.55" SPACE "MPa");
   g_assert_cmpstr(sb_format_fixed(text, 0.5, 1), ==, "0.5");
   g_assert_cmpstr(sb_format_fixed(text, 0, 1), ==, "0");
   g_assert_cmpstr(sb_format_fixed(text, -0.04, 1), ==, "0");

@@ -20,7 +20,9 @@ SbRunAhead *sb_run_ahead_create(void);
 void sb_run_ahead_destroy(SbRunAhead *ahead);
 
 // Adds the first ring of a task. The task is copied, and its pointers are borrowed until the queue
-// is destroyed. `slot` is a number of the caller that identifies the state, different for each, in
+// is destroyed. task->memory is that of the seal's own thread, which other threads only read
+// (sb_sliding_prefetch()); its counts and warnings are not used: whoever solves the state counts
+// it. `slot` is a number of the caller that identifies the state, different for each, in
 // sb_run_ahead_take(). `work` (copied) is the budget for solving it. Rings are solved in the order
 // in which they are added, so add them in the order in which the seals reach them. Only before
 // threads use the queue. Beyond one ring for each seal, SbChamber and motion it does nothing.

@@ -102,6 +102,10 @@ void sb_sliding_memory_rings(SbSlidingMemory *memory, SbRingsBeside how);
 // with SB_ERROR_CANCELLED. NULL: none.
 void sb_sliding_memory_poll(SbSlidingMemory *memory, bool (*cancelled)(void *), void *data);
 
+// The next four functions return what the last task evaluated with this memory has left.
+// sb_sliding_solve() replaces all, sb_sliding_fitment() fit and ring, sb_sliding_respeed() the
+// film.
+
 // Returns the fit of the last evaluated task; borrowed, overwritten by the next task.
 const SbFit *sb_sliding_fit(const SbSlidingMemory *memory);
 
