@@ -79,6 +79,12 @@ static int check_targets(const Options *options, const char *store) {
 
 // ---- What people read ----
 
+static void print_unknown(const SbLimitShare *share) {
+  if (share->unknown > 0) {
+    printf(", %zu without a value", share->unknown);
+  }
+}
+
 static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
   const bool reliability = study->method == SB_METHOD_RELIABILITY;
   if (share->of == 0) {
@@ -90,7 +96,9 @@ static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
     puts(" not all samples are there");
   } else if (reliability || study->method == SB_METHOD_MONTE_CARLO) {
     if (!reliability) {
-      printf(" %zu of %zu beyond:", share->beyond, share->of);
+      printf(" %zu of %zu beyond", share->beyond, share->of);
+      print_unknown(share);
+      putchar(':');
     }
     const double unit = reliability ? 1e6 : 100;
     const char *name = reliability ? "ppm" : "%";
@@ -102,7 +110,9 @@ static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
     printf("%s%s\n", reliability && share->reason[0] != '\0' ? ": " : "",
            reliability ? share->reason : "");
   } else {
-    printf(" %zu of %zu beyond\n", share->beyond, share->of);
+    printf(" %zu of %zu beyond", share->beyond, share->of);
+    print_unknown(share);
+    putchar('\n');
   }
 }
 

@@ -70,6 +70,13 @@ static char *probability_text(const SbReportStudyParts *study, const SbLimitShar
   return g_strdup_printf("%s\xc2\xa0%s (%s to %s)", p, name, low, high);
 }
 
+// "3 of 200", and how many have no value. Owned by the caller.
+static char *beyond_text(const SbLimitShare *share) {
+  g_autofree char *unknown =
+      share->unknown > 0 ? g_strdup_printf("; %zu have no value", share->unknown) : g_strdup("");
+  return g_strdup_printf("%zu of %zu%s", share->beyond, share->of, unknown);
+}
+
 static void draw_limits(SbReportPages *pages, SbReportStudyParts *study) {
   static const SbTableColumn columns[] = {
       {.label = "Limit on", .width = 4},
@@ -99,7 +106,7 @@ static void draw_limits(SbReportPages *pages, SbReportStudyParts *study) {
         SB_CELLS(
             sb_cell_own(all ? g_strdup("any of them") : sb_figure_label(limit->figure)),
             sb_cell_shown(all ? NULL : sb_limit_format(limit->figure, limit->low, limit->high)),
-            sb_cell_shown(g_strdup_printf("%zu of %zu", share.beyond, share.of)),
+            sb_cell_shown(beyond_text(&share)),
             sb_cell_shown(independent ? probability_text(study, &share) : g_strdup(DASH)),
             sb_cell_shown(beta ? g_strdup_printf("%.2f", share.beta) : g_strdup(DASH))));
     sb_table_mark(table, share.beyond > 0 ? SB_TABLE_DOUBT : SB_TABLE_PLAIN);

@@ -74,7 +74,6 @@ static void *compute_own(void *data) {
   SbReport report = {0};
   SbEvaluator *evaluator = NULL;
   const bool good = sb_evaluator_create(&evaluator, &report) == SB_OK;
-  SbEvaluator *base = good ? sb_answer_start(own->asked) : NULL;
   for (;;) {
     g_autofree Block *block = g_async_queue_pop(own->work);
     if (block->count == 0) {
@@ -85,12 +84,11 @@ static void *compute_own(void *data) {
       out->sample = block->sample[i];
       out->answer.value = g_new(double, own->asked->figures + 1);
       out->answer.status =
-          good ? sb_answer(&out->answer, evaluator, own->asked, base, out->sample, NULL, NULL)
+          good ? sb_answer(&out->answer, evaluator, own->asked, out->sample, NULL, NULL)
                : SB_ERROR_MEMORY;
       g_async_queue_push(own->result, out);
     }
   }
-  sb_evaluator_destroy(base);
   sb_evaluator_destroy(evaluator);
   return NULL;
 }
@@ -208,11 +206,11 @@ static void hand_out(SbAnswerSink *sink, const SbQuestions *asked, const uint32_
 
 // ---- The other processes ----
 
-static void answer(const SbQuestions *asked, SbEvaluator *evaluator, const SbEvaluator *start,
-                   double *message, uint32_t sample) {
+static void answer(const SbQuestions *asked, SbEvaluator *evaluator, double *message,
+                   uint32_t sample) {
   char text[REASON + WARNINGS] = "";
   SbStoredAnswer out = {.value = message + 2};
-  const SbStatus outcome = sb_answer(&out, evaluator, asked, start, sample, NULL, NULL);
+  const SbStatus outcome = sb_answer(&out, evaluator, asked, sample, NULL, NULL);
   if (outcome == SB_ERROR_MEMORY) {
     MPI_Abort(MPI_COMM_WORLD, SB_EXIT_IO);
   }
@@ -234,7 +232,6 @@ static void serve(const SbQuestions *asked) {
   if (sb_evaluator_create(&evaluator, &report) != SB_OK) {
     MPI_Abort(MPI_COMM_WORLD, SB_EXIT_IO);
   }
-  SbEvaluator *base = sb_answer_start(asked);
   for (;;) {
     uint32_t sample[BLOCK] = {0};
     int count = 0;
@@ -246,10 +243,9 @@ static void serve(const SbQuestions *asked) {
     }
     MPI_Get_count(&status, MPI_UINT32_T, &count);
     for (int i = 0; i < count; i++) {
-      answer(asked, evaluator, base, message, sample[i]);
+      answer(asked, evaluator, message, sample[i]);
     }
   }
-  sb_evaluator_destroy(base);
   sb_evaluator_destroy(evaluator);
   g_free(message);
 }

@@ -33,27 +33,6 @@ static double now(void) {
 
 // ---- One answer ----
 
-SbEvaluator *sb_answer_start(const SbQuestions *asked) {
-  SbEvaluator *start = NULL;
-  if (asked->cold || asked->start != NULL || !sb_model_fit(asked->base)->section ||
-      sb_evaluator_create(&start, NULL) != SB_OK) {
-    return NULL;
-  }
-  g_autofree double *value = g_new(double, asked->figures);
-  const SbQuestion question = {.base = asked->base,
-                               .figure = asked->figure,
-                               .figure_count = asked->figures,
-                               .keep = true,
-                               .cancelled = asked->cancelled,
-                               .data = asked->data};
-  const SbStatus status = sb_evaluator_ask(value, start, &question, NULL);
-  if (status != SB_OK && status != SB_ERROR_NOT_CONVERGED) {
-    sb_evaluator_destroy(start);
-    return NULL;
-  }
-  return start;
-}
-
 static bool has_override(const SbQuestions *asked, size_t k, double value) {
   return (int)asked->parameter[k] >= 0 && !isnan(value);
 }
@@ -73,8 +52,7 @@ char *sb_warning_codes(const SbWarnings *warnings, const char *separator) {
 }
 
 SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
-                   const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
-                   void *data) {
+                   size_t sample, bool (*cancelled)(void *data), void *data) {
   SbOverride override[SB_QUESTION_PARAMETERS];
   size_t overrides = 0;
   for (size_t k = 0; k < asked->parameters; k++) {
@@ -88,7 +66,6 @@ SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestion
                                .override_count = overrides,
                                .figure = asked->figure,
                                .figure_count = asked->figures,
-                               .start = start,
                                .work_used = asked->work_used,
                                .cancelled = cancelled,
                                .data = data};
@@ -192,7 +169,6 @@ bool sb_answer_poll(SbAnswerSink *sink) {
 
 typedef struct {
   const SbQuestions *asked;
-  const SbEvaluator *start;
   SbAnswerSink *sink;
   const uint32_t *todo; // samples to compute
   size_t count;
@@ -215,8 +191,7 @@ static bool is_stopped(void *data) {
 
 static void answer_one(Threads *pool, SbEvaluator *evaluator, uint32_t sample) {
   SbStoredAnswer answer = {.value = sb_answer_place(pool->sink, sample)};
-  const SbStatus status =
-      sb_answer(&answer, evaluator, pool->asked, pool->start, sample, is_stopped, pool);
+  const SbStatus status = sb_answer(&answer, evaluator, pool->asked, sample, is_stopped, pool);
   if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
     atomic_store(&pool->stop, true);
     for (size_t i = 0; i < pool->asked->figures; i++) {
@@ -276,16 +251,7 @@ static void collect(Threads *pool) {
 
 static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, const uint32_t *todo,
                                size_t count) {
-  SbEvaluator *start = sb_answer_start(asked);
-  if (!sb_answer_poll(sink)) { // a base that was cancelled is no start: samples would differ
-    sb_evaluator_destroy(start);
-    return;
-  }
-  Threads pool = {.asked = asked,
-                  .start = asked->start != NULL ? asked->start : start,
-                  .sink = sink,
-                  .todo = todo,
-                  .count = count};
+  Threads pool = {.asked = asked, .sink = sink, .todo = todo, .count = count};
   pthread_t thread[JOBS_MAX];
   const int jobs = CLAMP((int)MIN((size_t)asked->jobs, count), 1, JOBS_MAX);
   pthread_condattr_t attributes;
@@ -306,7 +272,6 @@ static void compute_on_threads(SbAnswerSink *sink, const SbQuestions *asked, con
   for (int i = 0; i < started; i++) {
     pthread_join(thread[i], NULL);
   }
-  sb_evaluator_destroy(start);
   g_free(pool.done);
   pthread_cond_destroy(&pool.ready);
   pthread_mutex_destroy(&pool.lock);

@@ -1,8 +1,8 @@
 // Results of many samples of one model: those that a store has are read from it; the others are
 // computed on threads and stored.
 //
-// The result of a sample depends only on the base and on the sample
-// (engine/valve/answer/evaluate.h), not on threads, shards, other samples or interruptions.
+// The result of a sample is that of `sealbench run` for the same valve, to the bit: it does not
+// depend on threads, shards, other samples or interruptions.
 #pragma once
 
 #include "app/study/store.h"
@@ -32,10 +32,7 @@ typedef struct {
   int jobs;                 // number of threads, at least 1
   const SbAnswerPool *pool; // what computes; NULL: `jobs` threads of this process
   SbStore *store;           // NULL: nothing is stored
-  // Ring states for the warm start of every sample; NULL: those of the base. `cold`: no warm start.
-  const SbEvaluator *start;
-  bool cold;
-  size_t work_used; // solver steps of output.work_limit that no sample may use
+  size_t work_used;         // solver steps of output.work_limit that no sample may use
   // Every sample solves all contacts, also those that its thread has just solved: its number of
   // solver steps then depends on the sample alone.
   bool separate;
@@ -83,19 +80,12 @@ char *sb_warning_codes(const SbWarnings *warnings, const char *separator);
 
 // ---- For pools: how sb_answers_get() distributes the work ----
 
-// Computes the base and returns an evaluator with its ring states, for the warm start of the
-// samples; the same in every process. NULL: the base has no solved rings or failed, asked->cold, or
-// asked->start is given, which is then the warm start. Freed by sb_evaluator_destroy().
-SbEvaluator *sb_answer_start(const SbQuestions *asked);
-
 // Computes one sample: writes its figures to out->value[figures], which the caller has set, and
 // fills the other members, whose strings are freed by g_free(). `evaluator`
 // (sb_evaluator_create()) is the work memory of the calling thread, one for each thread, for any
-// number of samples. `start` is the warm start: asked->start, else sb_answer_start(), else NULL.
-// `cancelled` (may be NULL) is called with `data`. Returns out->status.
+// number of samples. `cancelled` (may be NULL) is called with `data`. Returns out->status.
 SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
-                   const SbEvaluator *start, size_t sample, bool (*cancelled)(void *data),
-                   void *data);
+                   size_t sample, bool (*cancelled)(void *data), void *data);
 
 // Receives the results of a pool, in the thread that called sb_answers_get(), which has the store.
 typedef struct SbAnswerSink SbAnswerSink;

@@ -76,7 +76,8 @@ static SbStatus check_by_samples(SbDesign *out, const SbStudyFile *about, int jo
   if (status == SB_OK) {
     out->checked = true;
     out->samples = about->samples;
-    out->holds = 1 - share.probability;
+    // A valve of which a limit is not known does not meet it.
+    out->holds = share.of > 0 ? (1 - share.unknown_share) * (1 - share.probability) : 0;
     out->interval[0] = 1 - share.interval[1];
     out->interval[1] = 1 - share.interval[0];
   }

@@ -14,15 +14,18 @@ int sb_study_column_of(const SbStudyFile *study, int figure) {
   return -1;
 }
 
+// A valve that was computed belongs to the population, even without a value of this figure: the
+// stem may never have moved.
 static SbTrial trial_of(const SbStudyFile *study, const SbAnswers *answers, size_t sample,
                         size_t limit) {
   const SbLimit *of = &study->limits.item[limit];
   const int column = sb_study_column_of(study, of->figure);
   const double value = answers->value[sample * answers->figures + (size_t)column];
-  return value < of->low || value > of->high                 ? SB_TRIAL_FAILS
-         : !isnan(value)                                     ? SB_TRIAL_HOLDS
-         : answers->status[sample] == SB_ERROR_NOT_CONVERGED ? SB_TRIAL_UNKNOWN
-                                                             : SB_TRIAL_LEFT_OUT;
+  const uint8_t status = answers->status[sample];
+  return value < of->low || value > of->high                   ? SB_TRIAL_FAILS
+         : !isnan(value)                                       ? SB_TRIAL_HOLDS
+         : status == SB_OK || status == SB_ERROR_NOT_CONVERGED ? SB_TRIAL_UNKNOWN
+                                                               : SB_TRIAL_LEFT_OUT;
 }
 
 // Of any limit: one that fails decides, then one that is not known.
@@ -66,6 +69,7 @@ SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
     trial[i] = (uint8_t)(limit < study->limits.count ? trial_of(study, answers, i, limit)
                                                      : trial_of_any(study, answers, i));
     whole &= answers->status[i] != SB_ANSWER_MISSING;
+    out->unknown += trial[i] == SB_TRIAL_UNKNOWN;
     if (about != NULL) {
       weight[i] = sb_importance_weight(drawn->unit + i * n, n, about->centre, about->centres);
     }
@@ -75,12 +79,13 @@ SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
     sb_weighted_share(&share, about != NULL && about->centres > 0 ? weight : NULL, trial, samples);
     out->beyond = share.failed;
     out->of = share.known;
+    out->unknown_share = share.unknown;
     // Some of the samples about failures have not the density that the weights are for.
     if (whole || about == NULL) {
       out->probability = share.probability;
       memcpy(out->interval, share.interval, sizeof out->interval);
     }
-    out->certain = out->probability >= 1 && out->beyond == out->of;
+    out->certain = out->probability >= 1 && out->beyond == out->of && out->unknown == 0;
     if (out->certain) {
       sb_text(out->reason, sizeof out->reason,
               "every valve fails: all of %zu samples are beyond the limit", out->of);
@@ -88,6 +93,11 @@ SbStatus sb_study_limit_share(SbLimitShare *out, const SbStudyFile *study,
       out->beta = -sb_normal_quantile(out->probability);
     } else if (out->probability == 0) {
       tell_nothing(out, drawn, limit);
+    }
+    if (out->unknown > 0) {
+      const size_t used = strlen(out->reason);
+      sb_text(out->reason + used, sizeof out->reason - used, "%s%zu samples have no value of it",
+              used > 0 ? "; " : "", out->unknown);
     }
   }
   free(trial);

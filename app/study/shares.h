@@ -12,15 +12,18 @@ typedef struct {
 } SbStudyDrawn;
 
 // Probability that a valve violates a limit, with an interval that covers only the sampling.
-// Infeasible samples are omitted; samples whose solver did not converge widen the interval. NaN if
-// samples about failures are missing.
+// Infeasible samples are omitted; `unknown` samples widen the interval: their solver did not
+// converge, or they have no value of the figure, as where the stem never moves. NaN if samples
+// about failures are missing.
 typedef struct {
-  size_t beyond, of;  // samples that violate the limit, of all samples that count
-  double probability; // 0 to 1
-  double interval[2]; // 95 % interval of the probability
-  double beta;        // reliability index: -(normal quantile of the probability); NaN: it is 0 or 1
-  bool certain;       // every sample with a result violates the limit
-  char reason[SB_TEXT]; // why the probability is 0 or 1; empty: neither
+  size_t beyond, of;    // samples that violate the limit, of all samples with a value
+  size_t unknown;       // samples without a value
+  double unknown_share; // their share of the population, 0 to 1
+  double probability;   // 0 to 1
+  double interval[2];   // 95 % interval of the probability
+  double beta;  // reliability index: -(normal quantile of the probability); NaN: it is 0 or 1
+  bool certain; // every sample with a result violates the limit
+  char reason[SB_TEXT]; // why the probability is 0 or 1, or not known of all; empty: neither
 } SbLimitShare;
 
 // Computes the probability for limit `limit` of study->limits, or for limit == study->limits.count

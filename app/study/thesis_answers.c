@@ -320,7 +320,6 @@ static bool answer_grid(SbThesisWork *work, SbThesisGrid *grid) {
                              .value = point,
                              .samples = count,
                              .jobs = work->jobs,
-                             .cold = true,
                              .seen = on_seen,
                              .cancelled = on_cancelled,
                              .data = &seen};

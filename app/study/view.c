@@ -42,8 +42,6 @@ static SbStatus answer(void *data, double *value, const SbStudyAsk *ask) {
                              .value = ask->value,
                              .samples = ask->rows,
                              .jobs = (int)g_get_num_processors(),
-                             .start = ask->start,
-                             .cold = ask->start == NULL,
                              .work_used = ask->work_used,
                              .separate = true,
                              .seen = ask->seen,

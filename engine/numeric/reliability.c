@@ -240,6 +240,8 @@ void sb_weighted_share(SbWeightedShare *out, const double *weight, const uint8_t
   }
   out->failed = count[SB_TRIAL_FAILS];
   out->known = out->failed + count[SB_TRIAL_HOLDS];
+  const double drawn = share[SB_TRIAL_FAILS] + share[SB_TRIAL_HOLDS] + share[SB_TRIAL_UNKNOWN];
+  out->unknown = drawn > 0 ? share[SB_TRIAL_UNKNOWN] / drawn : 0;
   if (out->known == 0) {
     return;
   }
@@ -268,9 +270,8 @@ void sb_weighted_share(SbWeightedShare *out, const double *weight, const uint8_t
     out->interval[0] = out->probability / spread;
     out->interval[1] = fmin(out->probability * spread, 1);
   }
-  const double drawn = share[SB_TRIAL_FAILS] + share[SB_TRIAL_HOLDS] + share[SB_TRIAL_UNKNOWN];
-  out->interval[1] = fmin(out->interval[1] + share[SB_TRIAL_UNKNOWN] / drawn, 1);
+  out->interval[1] = fmin(out->interval[1] + out->unknown, 1);
   if (out->failed == out->known) {
-    out->interval[0] = fmax(out->interval[0] - share[SB_TRIAL_UNKNOWN] / drawn, 0);
+    out->interval[0] = fmax(out->interval[0] - out->unknown, 0);
   }
 }

@@ -87,6 +87,7 @@ typedef enum {
 typedef struct {
   size_t failed;      // number of trials that failed
   size_t known;       // number of trials that failed or held
+  double unknown;     // share of the population that has no result, 0 to 1
   double probability; // among known trials; NaN if `known` is 0
   double interval[2]; // 95 % interval, lower and upper end; NaN if `known` is 0. It covers the
                       // sampling error only and is widened by the unknown trials

@@ -229,6 +229,66 @@ static void test_reliability(void) {
   g_unlink(study);
 }
 
+static double value_of(const char *csv, int row, int column) {
+  g_auto(GStrv) lines = g_strsplit(csv, "\n", -1), cells = g_strsplit(lines[row], ",", -1);
+  return g_ascii_strtod(cells[column], NULL);
+}
+
+// A row has the figures of a run, solved rings far from the study's base too.
+static void test_row_is_run(void) {
+  g_autofree char *scene =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "piston.scene", NULL);
+  g_autofree char *study = path_of("row.study"), *store = path_of("row.store");
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\n"
+                      "seal.modulus = levels 2.7 MPa, 5.2 MPa\n[study]\nmethod = grid\n"
+                      "figures = seals.inner.load_N, cycle.force_return_margin_N\n",
+                      scene);
+  g_assert_true(g_file_set_contents(study, text, -1, NULL));
+  CliResult rows = CLI("study", study, "-o", store, "-q", "--csv", "-");
+  g_assert_cmpint(rows.code, ==, 0);
+  CliResult run = CLI("run", scene, "-q", "--set", "seal.modulus=5.2MPa", "--json", "-");
+  g_assert_cmpint(run.code, ==, 0);
+  g_autoptr(JsonNode) root = cli_parse(run.out);
+  g_assert_cmpfloat(value_of(rows.out, 2, 2), ==, cli_number(root, "seals.inner.load_N"));
+  g_assert_cmpfloat(value_of(rows.out, 2, 3), ==, cli_number(root, "cycle.force_return_margin_N"));
+  cli_clear(&rows);
+  cli_clear(&run);
+  g_unlink(store);
+  g_unlink(study);
+}
+
+// Valves whose stem never moves have no press force, and are not left out.
+static void test_never_moves(void) {
+  g_autofree char *scene = path_of("hand.scene"), *study = path_of("hand.study"),
+                  *store = path_of("hand.store");
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n[drive]\nkind = hand\n"
+                      "peak_force = 28.7 N\n[models]\nmotion = dynamic\n",
+                      cli.valve);
+  g_assert_true(g_file_set_contents(scene, text, -1, NULL));
+  static const char rest[] = "[sealbench]\nformat = 1\nkind = study\nscene = hand.scene\n[vary]\n"
+                             "gland.radial_space = normal 1.36 mm, 0.005 mm\n"
+                             "[study]\nmethod = monte-carlo\nsamples = 100\n"
+                             "[limits]\ncycle.force_press_N = <= 40 N\n";
+  g_assert_true(g_file_set_contents(study, rest, -1, NULL));
+  CliResult result = CLI("study", study, "-o", store, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  const double known = cli_number(root, "limits.0.samples");
+  g_assert_true(known > 20 && known < 80);
+  g_assert_cmpfloat(cli_number(root, "limits.0.interval_95.1"), >, 1 - known / 100);
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "limits.0.reason")),
+                          " samples have no value of it"));
+  cli_clear(&result);
+  result = CLI("study", study, "-o", store);
+  g_assert_nonnull(strstr(result.out, " without a value: 0 %"));
+  cli_clear(&result);
+  g_unlink(store);
+  g_unlink(study);
+  g_unlink(scene);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -237,6 +297,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-study/killed", test_killed);
   g_test_add_func("/cli-study/reliability", test_reliability);
   g_test_add_func("/cli-study/told", test_told);
+  g_test_add_func("/cli-study/row-is-run", test_row_is_run);
+  g_test_add_func("/cli-study/never-moves", test_never_moves);
   const int failed = g_test_run();
   cli_tear_down();
   return failed;

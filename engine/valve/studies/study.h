@@ -132,8 +132,7 @@ typedef struct {
 typedef struct {
   const double *value; // [rows][columns] values of SbStudyGrid.column in SI; NaN: as in the base
   size_t rows;         // number of rows
-  const SbEvaluator *start; // SbQuestion.start for all rows; NULL: cold start
-  size_t work_used;         // SbQuestion.work_used for all rows
+  size_t work_used;    // SbQuestion.work_used for all rows
   // To be called once for each row, after it is computed, in any thread; several threads may call
   // it simultaneously for different rows. `status` and `report` (not NULL) are those of
   // sb_evaluator_ask() for the row, and `evaluator` is the one that was asked.

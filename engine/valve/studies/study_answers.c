@@ -183,7 +183,6 @@ void sb_study_answer_rows(SbStudyWork *work, const double *value, const int *lin
     Asking asking = {work, seen + i, i, rows, from, to, false};
     const SbStudyAsk ask = {.value = value + i * grid->columns,
                             .rows = count,
-                            .start = work->start,
                             .work_used = used_of_part(work, count),
                             .seen = on_seen,
                             .progress = on_progress,

@@ -72,7 +72,6 @@ struct SbStudyWork {
   double lo, hi;               // ends of the abscissa: the scene's range, or the study's own
   double load;                 // net load of films that the study solves at one load [N/m]
   SbEvaluator *evaluator;      // of sb_study_ask()
-  const SbEvaluator *start;    // rings of the grid start from its states; NULL: cold start
   SbFilmSolver *solver;        // of sb_study_film()
   SbFilm film;                 // last result of sb_study_film()
   SbStudyHooks hooks;          // {0} if the caller has none

@@ -290,30 +290,6 @@ static void correct_all(SbStudyWork *work, const Ratios ratios[FLUIDS + 1]) {
   }
 }
 
-// Solves the rings at some temperatures, from which those of all cycles start: those of the fluid
-// of the highest pressure, whose steps are less than twice what a ring can start over.
-static SbEvaluator *find_starts(SbStudyWork *work) {
-  enum { STARTS = 6, OF = 1 }; // HFA-134a
-  const int figure[] = {sb_figure_find("cycle.force_breakaway_N"),
-                        sb_figure_find("cycle.force_return_margin_N")};
-  double value[2];
-  SbEvaluator *start = NULL;
-  work->status = sb_evaluator_create(&start, work->report);
-  for (int i = 0; i < STARTS && work->status == SB_OK; i++) {
-    const SbOverride override[] = {{SB_P_FLUID_NAME, OF},
-                                   {SB_P_CANISTER_TEMPERATURE, sb_study_place(work, i, STARTS)}};
-    const SbQuestion question = {.base = &work->base,
-                                 .override = override,
-                                 .override_count = 2,
-                                 .figure = figure,
-                                 .figure_count = 2,
-                                 .keep = true};
-    SbReport report;
-    (void)sb_study_question(work, value, start, &question, &report);
-  }
-  return start;
-}
-
 #define SHARE 0.6 // of the work that the grid is, the parts aside
 
 // Returns whether a cycle is so cheap that the full grid is computed.
@@ -327,7 +303,6 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
   const bool rings = interpolates(work->scene), every = work->scene->study.rings_solved;
   SbStudyPlace place[FLUIDS * (POINTS + TABLE * PARTS)] = {{0, 0, NULL}};
   Ratios ratios[FLUIDS + 1] = {0};
-  SbEvaluator *start = NULL;
   size_t count = 0;
   for (int fluid = 1; rings && every && fluid <= FLUIDS; fluid++) {
     for (int i = 0; i < CYCLES; i++) {
@@ -337,7 +312,6 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
     }
   }
   if (count > 0) {
-    work->start = start = find_starts(work);
     sb_study_more(work, place, count, 0.15, 0.9);
   }
   for (size_t i = 0; i < count; i += 2) {
@@ -373,8 +347,6 @@ static void ask_all(SbStudyWork *work, int points, const double table[TABLE]) {
     }
   }
   sb_study_more(work, place, count, rings ? 0.9 : is_closed(work->scene) ? SHARE : 0, 1);
-  work->start = NULL;
-  sb_evaluator_destroy(start);
   if (rings) {
     correct_all(work, ratios);
   }
