@@ -382,6 +382,8 @@ SbDocument *sb_document_parse(const char *text, size_t length, const char *name,
   (void)(compiles ? sb_document_check_cases : sb_document_check_case_lines)(document, issues);
   if (sound) {
     sb_document_read_pins(document, entries, name, issues);
+  } else {
+    sb_document_keep_pins(document, entries);
   }
   sb_document_add_faults(document, issues, compiled);
   return document;

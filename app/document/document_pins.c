@@ -61,6 +61,17 @@ static bool has_line(const GPtrArray *lines, const char *name) {
   return false;
 }
 
+// Keeps the lines of [pins] that are not among `lines`: they were not read.
+static void keep_lines(SbDocument *document, const GPtrArray *entries, const GPtrArray *lines) {
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, SB_PINS_GROUP) == 0 &&
+        !has_line(lines, entry->name)) {
+      g_hash_table_add(document->pins_broken, g_strdup(entry->name));
+    }
+  }
+}
+
 void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const char *shown,
                            GPtrArray *issues) {
   g_autoptr(GPtrArray) lines = sb_document_cases_new();
@@ -83,15 +94,13 @@ void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const
     add(document, is_unnamed(line->name) ? NULL : line->name, &params,
         rubber != NULL ? rubber : sb_named_rubber_hold(sb_document_rubber_in_force(document)));
   }
-  // Lines beyond the largest number of designs were not read at all.
-  for (guint i = 0; i < entries->len; i++) {
-    const SbEntry *entry = entries->pdata[i];
-    if (entry->name != NULL && strcmp(entry->group, SB_PINS_GROUP) == 0 &&
-        !has_line(lines, entry->name)) {
-      g_hash_table_add(document->pins_broken, g_strdup(entry->name));
-    }
-  }
+  keep_lines(document, entries, lines);
   document->pins_changed = false;
+}
+
+void sb_document_keep_pins(SbDocument *document, const GPtrArray *entries) {
+  g_autoptr(GPtrArray) none = sb_document_cases_new();
+  keep_lines(document, entries, none);
 }
 
 // What makes the document's values a pin's: ids in the order to set them in. A value that follows
@@ -117,17 +126,63 @@ static bool other_rubber(const SbDocument *document, const Pin *pin) {
   return !sb_named_rubber_same(pin->rubber, sb_document_rubber_in_force(document));
 }
 
-// "KEY = VALUE; KEY = VALUE". Owned by the caller.
-static char *settings_of(const SbDocument *document, const Pin *pin) {
+// What the file states for the pin of this name; NULL: nothing.
+static const char *line_of(const SbDocument *document, const char *name) {
+  for (guint i = 0; i < document->entries->len; i++) {
+    const SbEntry *entry = document->entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, SB_PINS_GROUP) == 0 &&
+        strcmp(entry->name, name) == 0) {
+      return entry->value;
+    }
+  }
+  return NULL;
+}
+
+static void append_setting(GString *text, const char *key, const char *value) {
+  g_string_append_printf(text, "%s%s = %s", text->len > 0 ? "; " : "", key, value);
+}
+
+// Appends those settings of `line` that still make the pin's values, with their text, and adds
+// their keys to `kept`.
+static void keep_settings(GString *text, GHashTable *kept, const SbDocument *document,
+                          const Pin *pin, const char *line) {
+  g_auto(GStrv) settings = g_strsplit(line, ";", -1);
+  for (char **setting = settings; *setting != NULL; setting++) {
+    const char *rest = NULL;
+    g_autofree char *key = sb_document_split(&rest, g_strstrip(*setting));
+    const int id = key != NULL ? sb_param_find(key) : -1;
+    g_autofree char *shown = key != NULL ? g_strstrip(g_strdup(rest)) : NULL;
+    double value = 0;
+    const bool rubber = key != NULL && strcmp(key, SB_RUBBER_KEY) == 0 && pin->rubber != NULL &&
+                        strcmp(pin->rubber->name, shown) == 0;
+    if (rubber ||
+        (id >= 0 && sb_document_read_value(&value, document, (SbParamId)id, shown, NULL) &&
+         value == sb_params_get(&pin->params, (SbParamId)id))) {
+      append_setting(text, key, shown);
+      g_hash_table_add(kept, g_steal_pointer(&key));
+    }
+  }
+}
+
+// "KEY = VALUE; KEY = VALUE", with the text that `line` (NULL: none) has for a value. Owned by the
+// caller.
+static char *settings_of(const SbDocument *document, const Pin *pin, const char *line) {
   g_autoptr(GArray) ids = differences(document, pin);
   g_autoptr(GString) text = g_string_new(NULL);
-  if (pin->rubber != NULL && other_rubber(document, pin)) {
-    g_string_append_printf(text, "%s = %s", SB_RUBBER_KEY, pin->rubber->name);
+  g_autoptr(GHashTable) kept = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  if (line != NULL) {
+    keep_settings(text, kept, document, pin, line);
+  }
+  if (pin->rubber != NULL && other_rubber(document, pin) &&
+      !g_hash_table_contains(kept, SB_RUBBER_KEY)) {
+    append_setting(text, SB_RUBBER_KEY, pin->rubber->name);
   }
   for (guint i = 0; i < ids->len; i++) {
     const SbParamId id = (SbParamId)g_array_index(ids, int, i);
-    g_autofree char *value = sb_param_format(id, sb_params_get(&pin->params, id));
-    g_string_append_printf(text, "%s%s = %s", text->len > 0 ? "; " : "", sb_param(id)->key, value);
+    if (!g_hash_table_contains(kept, sb_param(id)->key)) {
+      g_autofree char *value = sb_param_format(id, sb_params_get(&pin->params, id));
+      append_setting(text, sb_param(id)->key, value);
+    }
   }
   return g_string_free(g_steal_pointer(&text), FALSE);
 }
@@ -151,10 +206,15 @@ void sb_document_change_pins(GArray *changes, const SbDocument *document) {
   }
   g_autoptr(GHashTable) names = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   for (size_t i = 0; i < document->pins->len; i++) {
-    SbChange change = {g_strdup(SB_PINS_GROUP), line_name(document, i),
-                       settings_of(document, pin_at(document, i))};
-    g_hash_table_add(names, g_strdup(change.name));
-    g_array_append_val(changes, change);
+    g_autofree char *name = line_name(document, i);
+    const char *line = line_of(document, name);
+    g_autofree char *settings = settings_of(document, pin_at(document, i), line);
+    // A line that states the pin already keeps its text.
+    if (g_strcmp0(line, settings) != 0) {
+      const SbChange change = {g_strdup(SB_PINS_GROUP), g_strdup(name), g_steal_pointer(&settings)};
+      g_array_append_val(changes, change);
+    }
+    g_hash_table_add(names, g_steal_pointer(&name));
   }
   for (guint i = 0; i < document->entries->len; i++) {
     const SbEntry *entry = document->entries->pdata[i];
@@ -221,6 +281,12 @@ static bool same_pin(const Pin *a, const Pin *b) {
 }
 
 void sb_document_take_pins(SbDocument *document, const SbDocument *other) {
+  GHashTableIter unread;
+  void *name;
+  g_hash_table_iter_init(&unread, other->pins_broken);
+  while (g_hash_table_iter_next(&unread, &name, NULL)) {
+    g_hash_table_add(document->pins_broken, g_strdup(name));
+  }
   bool same = document->pins->len == other->pins->len;
   for (size_t i = 0; same && i < other->pins->len; i++) {
     same = same_pin(pin_at(document, i), pin_at(other, i));

@@ -231,6 +231,10 @@ GPtrArray *sb_document_pins_new(void);
 void sb_document_read_pins(SbDocument *document, const GPtrArray *entries, const char *shown,
                            GPtrArray *issues);
 
+// Keeps the lines of [pins] among `entries` (of SbEntry) as they are, without reading them: for a
+// file with errors, whose values are not known.
+void sb_document_keep_pins(SbDocument *document, const GPtrArray *entries);
+
 // Appends the changes (of SbChange) of group [pins] with which saving makes the file state the
 // pins. The caller frees the three strings of each by g_free().
 void sb_document_change_pins(GArray *changes, const SbDocument *document);

@@ -218,8 +218,13 @@ void sb_document_change_remarks(GArray *changes, const SbDocument *document) {
   for (guint i = 0; i < document->entries->len; i++) {
     const SbEntry *entry = document->entries->pdata[i];
     for (int kind = 0; entry->name != NULL && kind < SB_REMARK_KINDS; kind++) {
-      if (strcmp(entry->group, groups[kind]) == 0 &&
-          find(document, (SbRemarkKind)kind, entry->name, &at) == NULL) {
+      if (strcmp(entry->group, groups[kind]) != 0) {
+        continue;
+      }
+      // A line that could not be read stays.
+      g_autofree char *text = unescape(entry->value);
+      g_autofree char *problem = problem_of((SbRemarkKind)kind, entry->name, text);
+      if (problem == NULL && find(document, (SbRemarkKind)kind, entry->name, &at) == NULL) {
         change(changes, entry->group, entry->name, NULL);
       }
     }

@@ -100,22 +100,29 @@ static void free_changes(GArray *changes) {
   g_array_unref(changes);
 }
 
+// The name in the heading of a group of measured data; empty: none.
+static const char *data_name(const char *group) {
+  return group[4] == ' ' ? group + 5 : "";
+}
+
 static SbData *group_of(const SbDocument *document, const char *group) {
   for (size_t i = 0; i < sb_document_data_count(document); i++) {
     SbData *data = document->measured->pdata[i];
-    const char *name = group[4] == ' ' ? group + 5 : "";
-    if (strcmp(data->name, name) == 0) {
+    if (strcmp(data->name, data_name(group)) == 0) {
       return data;
     }
   }
   return NULL;
 }
 
-// The groups of measured data where they are not the file's: keys that went, then all that stand.
+// The groups of measured data where they are not the file's: the keys of the first group if an edit
+// removed it, then all groups in force. The lines of groups that could not be read stay.
 static void change_data(GArray *changes, const SbDocument *document, const char *path) {
-  for (guint i = 0; i < document->entries->len; i++) {
+  const SbData *first = document->saved_measured;
+  for (guint i = 0; first != NULL && i < document->entries->len; i++) {
     const SbEntry *entry = document->entries->pdata[i];
     if (entry->name != NULL && sb_data_is_group(entry->group) &&
+        strcmp(data_name(entry->group), first->name) == 0 &&
         group_of(document, entry->group) == NULL) {
       const SbChange change = {g_strdup(entry->group), g_strdup(entry->name), NULL};
       g_array_append_val(changes, change);

@@ -60,6 +60,7 @@ void sb_session_whole_changed(SbSession *session) {
   sb_session_read_measured(session);
   sb_session_refresh_chart(session);
   sb_session_document_changed(session);
+  sb_session_poll_pins(session); // no run may follow: that of the document may be known
 }
 
 static gboolean become(SbSession *session, SbDocument *other) {

@@ -212,7 +212,9 @@ static void take(SbSession *session, SbRunHandle *handle) {
   sb_run_cache_put(session->cache, pin->run);
 }
 
-static void compute_next(SbSession *session) {
+// Returns whether a run was found without computing it, or cannot be computed.
+static bool compute_next(SbSession *session) {
+  bool settled = false;
   for (size_t i = 0; i < session->pins->len && session->pin_ticket == 0; i++) {
     Pin *pin = pin_at(session, i);
     if (pin->run != NULL || pin->failed) {
@@ -222,6 +224,7 @@ static void compute_next(SbSession *session) {
     SbDisplayedRun *known = sb_run_cache_get(session->cache, params, sb_session_drawings(session));
     if (known != NULL && known->grade == SB_GRADE_WHOLE) {
       pin->run = sb_displayed_run_ref(known);
+      settled = true;
       continue;
     }
     g_autoptr(SbModel) model = NULL;
@@ -231,7 +234,7 @@ static void compute_next(SbSession *session) {
     }
     if (session->pin_runner == NULL ||
         !sb_document_compile_pin(session->document, i, &model, issues)) {
-      pin->failed = true;
+      pin->failed = settled = true;
       continue;
     }
     session->pin_index = i;
@@ -240,12 +243,13 @@ static void compute_next(SbSession *session) {
                                              .wishes = {.views = SB_SESSION_VIEWS, .life = true},
                                              .alone = true});
   }
+  return settled;
 }
 
 void sb_session_poll_pins(SbSession *session) {
   SbRunHandle *handle = session->pin_ticket != 0 ? sb_runner_latest(session->pin_runner) : NULL;
-  const bool done = handle != NULL && sb_run_handle_ticket(handle) == session->pin_ticket &&
-                    sb_run_handle_is_done(handle);
+  bool done = handle != NULL && sb_run_handle_ticket(handle) == session->pin_ticket &&
+              sb_run_handle_is_done(handle);
   if (done) {
     take(session, handle);
   } else {
@@ -253,7 +257,7 @@ void sb_session_poll_pins(SbSession *session) {
   }
   // What somebody waits for goes first.
   if (!sb_session_computes(session) && !sb_session_delays(session) && session->pin_ticket == 0) {
-    compute_next(session);
+    done |= compute_next(session);
   }
   if (done) {
     sb_session_run_changed(session);

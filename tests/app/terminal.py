@@ -417,9 +417,11 @@ def test_random(count=250, seed=20):
 
 def test_changed_file():
     """Another program writes the document's file while a value is edited here: saving does not
-    replace it, both versions are merged, and one key takes that back."""
+    replace it, both versions are merged, and one key takes that back. A pin stays all the while."""
     with Terminal() as terminal:
         path = f'{terminal.folder}/piston.valve'
+        with open(path, 'a', encoding='utf-8') as file:
+            file.write('[pins]\nfirm = seal.modulus = 55 ShoreA\n')
         terminal.start('piston.valve')
         terminal.see(r'│ C +\d')
         terminal.keys('Enter')
@@ -439,14 +441,17 @@ def test_changed_file():
         terminal.keys('m')
         terminal.see(r'Radial space +1.37 mm')
         terminal.see(r'Section diameter +1.6 mm')
+        terminal.see(r'Compare +live +firm')
         terminal.keys('u')
         terminal.see(r'Radial space +1.36 mm')
+        terminal.see(r'Compare +live +firm')
         terminal.keys('s')
         terminal.see('Another program has changed the file')
         terminal.keys('o')
         terminal.see('the document is')
         with open(path, encoding='utf-8') as file:
-            assert 'radial_space = 1.36 mm' in file.read()
+            text = file.read()
+        assert 'radial_space = 1.36 mm' in text and 'seal.modulus = 55 ShoreA' in text
         terminal.keys('q')
         terminal.see(r'(?m)^left 0')
 

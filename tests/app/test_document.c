@@ -465,9 +465,38 @@ static void test_project(void) {
   }
 }
 
+// An edit leaves what a pin's line, a note or a group of data states as it is, also in a file with
+// errors.
+static void test_lines_stay(void) {
+  static const char pins[] = "[pins]\np1 =  seal.modulus = 55 ShoreA\n";
+  static const char bad[] = "[models]\nasperities = none\n";
+  static const char others[] = "[notes]\n a] = b\n[data x]\nseparator = comma\n";
+  g_autofree char *folder = g_build_filename(g_getenv("SEALBENCH_ASSETS"), "valves", NULL);
+  for (int faulty = 0; faulty < 2; faulty++) {
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    g_autofree char *text =
+        g_strconcat("[sealbench]\nformat = 1\nkind = scene\nvalve = piston.valve\n", pins,
+                    faulty ? bad : "", faulty ? others : "", NULL);
+    g_autoptr(SbDocument) document =
+        sb_document_parse(text, strlen(text), "x.scene", folder, issues);
+    g_assert_cmpuint(issues->len > 0, ==, faulty);
+    g_assert_true(sb_document_set(document, SB_P_DRIVE_SPEED, "21 mm/min", NULL));
+    g_assert_true(sb_document_put_remark(document, SB_REMARK_NOTE, "all", "text", NULL));
+    g_autofree char *saved = sb_document_to_text(document, NULL);
+    g_assert_nonnull(strstr(saved, "seal.modulus = 55 ShoreA"));
+    g_assert_cmpint(strstr(saved, "; drive.speed = ") == NULL, ==, faulty);
+    g_assert_cmpint(strstr(saved, "\n a] = b\n") != NULL, ==, faulty);
+    // The line of a pin that the edit does not change.
+    g_assert_cmpint(sb_document_undo(document), ==, SB_P_DRIVE_SPEED);
+    g_autofree char *same = sb_document_to_text(document, NULL);
+    g_assert_nonnull(strstr(same, pins));
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/document/project", test_project);
+  g_test_add_func("/document/lines-stay", test_lines_stay);
   g_test_add_func("/document/piston", test_piston);
   g_test_add_func("/document/scenes", test_scenes);
   g_test_add_func("/document/layers", test_layers);
