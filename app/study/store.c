@@ -51,8 +51,7 @@ static bool run_sql(SbStore *store, const char *statement, GError **error) {
          sb_store_fail(store, SB_APP_ERROR_IO, error);
 }
 
-// A number that a statement yields.
-static gint64 number(SbStore *store, const char *statement) {
+gint64 sb_store_number(SbStore *store, const char *statement) {
   sqlite3_stmt *query = NULL;
   gint64 value = -1;
   if (sqlite3_prepare_v2(store->file, statement, -1, &query, NULL) == SQLITE_OK &&
@@ -119,8 +118,12 @@ void sb_store_record(SbStoreRecord *out, sqlite3_stmt *row) {
 // ---- Opening ----
 
 // Opens the file with what keeps a hostile one from harm.
-static bool open_file(SbStore *store, int flags, GError **error) {
-  if (sqlite3_open_v2(store->path, &store->file, flags, NULL) != SQLITE_OK) {
+bool sb_store_open_file(SbStore *store, int flags, GError **error) {
+  const sqlite3_int64 size = (sqlite3_int64)store->image_size;
+  if (store->image != NULL ? sqlite3_open(":memory:", &store->file) != SQLITE_OK ||
+                                 sqlite3_deserialize(store->file, "main", store->image, size, size,
+                                                     SQLITE_DESERIALIZE_READONLY) != SQLITE_OK
+                           : sqlite3_open_v2(store->path, &store->file, flags, NULL) != SQLITE_OK) {
     return sb_store_fail(store, SB_APP_ERROR_IO, error);
   }
   sqlite3_db_config(store->file, SQLITE_DBCONFIG_DEFENSIVE, 1, NULL);
@@ -148,8 +151,9 @@ static bool make_tables(SbStore *store, GError **error) {
 // Whether the file is a store of this format, or of the oldest one; *empty (not NULL): whether it
 // is a file without anything, which is accepted then.
 static bool check_format(SbStore *store, bool *empty, int oldest, GError **error) {
-  const gint64 application = number(store, "PRAGMA application_id");
-  const gint64 tables = application < 0 ? -1 : number(store, "SELECT count(*) FROM sqlite_master");
+  const gint64 application = sb_store_number(store, "PRAGMA application_id");
+  const gint64 tables =
+      application < 0 ? -1 : sb_store_number(store, "SELECT count(*) FROM sqlite_master");
   if (application < 0 || tables < 0) {
     return sb_store_fail(store, SB_APP_ERROR_IO, error);
   }
@@ -158,7 +162,7 @@ static bool check_format(SbStore *store, bool *empty, int oldest, GError **error
     store->format = SB_STORE_FORMAT;
     return true;
   }
-  store->format = (int)number(store, "PRAGMA user_version");
+  store->format = (int)sb_store_number(store, "PRAGMA user_version");
   if (application != APPLICATION || store->format < 1 || store->format > SB_STORE_FORMAT) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s is not a store of this version",
                 store->path);
@@ -196,6 +200,7 @@ static void close_file(SbStore *store) {
 static void destroy(SbStore *store) {
   close_file(store);
   g_free(store->path);
+  g_free(store->image);
   g_free(store->parameter_names);
   g_free(store->figures_of);
   g_free(store);
@@ -208,7 +213,7 @@ static bool open_writable(SbStore *store, GError **error) {
   close_file(store);
   store->writable = true;
   store->open_transaction =
-      open_file(store, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, error) &&
+      sb_store_open_file(store, SQLITE_OPEN_READWRITE | SQLITE_OPEN_CREATE, error) &&
       run_sql(store, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE", error) &&
       run_sql(store, "BEGIN IMMEDIATE", error);
   return store->open_transaction && check_format(store, &empty, SB_STORE_FORMAT, error) &&
@@ -221,8 +226,8 @@ static bool open_readable(SbStore *store, int flags, int oldest, GError **error)
   bool empty = false;
   g_autoptr(GError) found = NULL;
   close_file(store);
-  if (open_file(store, flags, &found) && check_format(store, &empty, oldest, &found) && !empty &&
-      (store->format < SB_STORE_FORMAT || prepare(store, &found))) {
+  if (sb_store_open_file(store, flags, &found) && check_format(store, &empty, oldest, &found) &&
+      !empty && (store->format < SB_STORE_FORMAT || prepare(store, &found))) {
     return true;
   }
   const int result = sqlite3_errcode(store->file);
@@ -241,6 +246,12 @@ bool sb_store_check_name(const char *path, GError **error) {
                   path);
       return false;
     }
+  }
+  if (g_file_test(path, G_FILE_TEST_IS_DIR)) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s is a folder: a store is a file, write for example -o %s%sNAME.store", path,
+                path, g_str_has_suffix(path, "/") ? "" : "/");
+    return false;
   }
   return true;
 }
@@ -272,6 +283,18 @@ SbStore *sb_store_open_rows(const char *path, GError **error) {
   if (open_readable(store, SQLITE_OPEN_READONLY, 1, &found) ||
       (found == NULL && open_readable(store, SQLITE_OPEN_READWRITE, 1, &found))) {
     return store;
+  }
+  const int result = sqlite3_errcode(store->file);
+  if (result == SQLITE_CORRUPT && sb_store_load_image(store)) {
+    g_clear_error(&found);
+    if (open_readable(store, SQLITE_OPEN_READONLY, 1, &found)) {
+      return store;
+    }
+  }
+  if (result == SQLITE_CORRUPT || result == SQLITE_NOTADB) {
+    g_clear_error(&found);
+    g_set_error(&found, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s is not a store, or its beginning is damaged: no row can be found in it", path);
   }
   if (found == NULL) {
     g_set_error(&found, SB_APP_ERROR, SB_APP_ERROR_INPUT, "%s is empty, or cannot be read", path);
@@ -462,19 +485,5 @@ bool sb_store_put(SbStore *store, const guint8 key[SB_STORE_KEY], const double *
 }
 
 guint64 sb_store_count(SbStore *store) {
-  return (guint64)MAX(number(store, "SELECT count(*) FROM answer"), 0);
-}
-
-char *sb_store_cpus(SbStore *store) {
-  GString *text = g_string_new(NULL);
-  sqlite3_stmt *query = NULL;
-  if (sqlite3_prepare_v2(store->file, "SELECT DISTINCT cpu FROM origin ORDER BY cpu", -1, &query,
-                         NULL) == SQLITE_OK) {
-    while (sqlite3_step(query) == SQLITE_ROW) {
-      const char *cpu = (const char *)sqlite3_column_text(query, 0);
-      g_string_append_printf(text, "%s%s", text->len > 0 ? "; " : "", cpu != NULL ? cpu : "");
-    }
-  }
-  sqlite3_finalize(query);
-  return g_string_free(text, FALSE);
+  return (guint64)MAX(sb_store_number(store, "SELECT count(*) FROM answer"), 0);
 }

@@ -113,7 +113,7 @@ typedef bool (*SbStoreVisit)(void *data, const SbStoreRow *row);
 
 // Calls `visit` for every row, in the order of the file, until it returns false (which is not an
 // error). `visit` calls no function of the store except sb_store_row_name(). Returns false with
-// SB_APP_ERROR_INPUT if the file is damaged so that further rows cannot be read.
+// SB_APP_ERROR_INPUT if the file is damaged so that further rows cannot be read, or may be missing.
 bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **error);
 
 // Returns the format: 2; 1 for a store of Sealbench 0.1, whose rows have no checksums.
@@ -128,7 +128,7 @@ typedef struct {
   guint64 damaged; // of these, rows whose checksum does not match
   guint64 unnamed; // sound rows whose list of names is damaged
   char *first;     // name of the first damaged row and its damage; NULL: none
-  char *structure; // damage of the file after which no rows can be read; NULL: none
+  char *structure; // damage of the file because of which rows are missing; NULL: none
 } SbStoreHealth;
 
 // Reads all rows and writes their state to *out.
@@ -137,10 +137,10 @@ void sb_store_health(SbStoreHealth *out, SbStore *store);
 // Frees the strings.
 void sb_store_health_release(SbStoreHealth *health);
 
-// Copies all sound rows to the new store `to`, also those that can be read from the end of a
-// damaged file; *saved is their number. There must be no file `to`. Fails with SB_APP_ERROR_INPUT
-// for a store of format 1. After an error the file `to` does not exist; `store` is unchanged in any
-// case.
+// Copies all sound rows to the new store `to`, also those of pages of a damaged file that its table
+// does not lead to; *saved is their number. There must be no file `to`. Fails with
+// SB_APP_ERROR_INPUT for a store of format 1. After an error the file `to` does not exist; `store`
+// is unchanged in any case.
 bool sb_store_recover(guint64 *saved, SbStore *store, const char *to, GError **error);
 
 // Replaces the damaged file of an open store by one with its sound rows. Changes since the last

@@ -14,6 +14,8 @@ struct SbStore {
   sqlite3 *file;
   sqlite3_stmt *get, *put;    // prepared statements
   char *path;                 // ":memory:" in memory
+  guint8 *image;              // [image_size]: content of a file that is cut; NULL: the file is read
+  size_t image_size;          // [bytes]
   int format;                 // 1 or 2
   gint64 list;                // number of the present list
   char *parameter_names;      // of the present list, separated by newlines; NULL: not set
@@ -61,3 +63,23 @@ bool sb_store_begin(SbStore *store, GError **error);
 
 // Writes a row unchanged, within a transaction. Returns false with an error.
 bool sb_store_put_record(SbStore *store, const SbStoreRecord *record, GError **error);
+
+// Opens the file, or the image if there is one, with `flags` of SQLite. The caller closes
+// store->file, also after an error. Returns false with an error.
+bool sb_store_open_file(SbStore *store, int flags, GError **error);
+
+// Returns the number that the SQL statement yields; −1: none.
+gint64 sb_store_number(SbStore *store, const char *statement);
+
+// ---- Damaged files (store_pages.c) ----
+
+// Reads a file that is shorter than its header states into store->image, with zeros for what is
+// missing. Returns false for any other file.
+bool sb_store_load_image(SbStore *store);
+
+// Receives a store whose only rows are those of one page. Returns whether it has rows.
+typedef bool (*SbStorePageVisit)(void *data, SbStore *page);
+
+// Calls `visit` for every page that can have rows, also for pages that the table does not lead to.
+// Rows may be visited several times.
+void sb_store_visit_pages(SbStore *store, SbStorePageVisit visit, void *data);

@@ -130,6 +130,20 @@ static int visit_rows(const Visit *of, bool descending, guint64 *number) {
   return code;
 }
 
+// What is wrong with the pages of the file; NULL: nothing. Owned by the caller.
+static char *structure_of(SbStore *store) {
+  sqlite3_stmt *query = NULL;
+  char *text = NULL;
+  if (sqlite3_prepare_v2(store->file, "PRAGMA quick_check(1)", -1, &query, NULL) != SQLITE_OK ||
+      sqlite3_step(query) != SQLITE_ROW) {
+    text = g_strdup(sqlite3_errmsg(store->file));
+  } else if (strcmp(text_of(query, 0), "ok") != 0) {
+    text = g_strdelimit(g_strdup(text_of(query, 0)), "\n", ' ');
+  }
+  sqlite3_finalize(query);
+  return text;
+}
+
 bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **error) {
   const Visit of = {store, read_lists(store), visit, data};
   guint64 number = 0;
@@ -139,8 +153,15 @@ bool sb_store_visit(SbStore *store, SbStoreVisit visit, void *data, GError **err
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
                 "%s is damaged: after %" G_GUINT64_FORMAT " rows no more can be read (%s)",
                 store->path, number, sqlite3_errstr(code));
+    return false;
   }
-  return code == SQLITE_DONE;
+  g_autofree char *structure = structure_of(store);
+  if (structure != NULL) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "%s is damaged: %" G_GUINT64_FORMAT " rows can be read, others may be missing (%s)",
+                store->path, number, structure);
+  }
+  return structure == NULL;
 }
 
 char *sb_store_row_name(const SbStoreRow *row) {
@@ -183,6 +204,20 @@ void sb_store_health_release(SbStoreHealth *health) {
   g_free(health->first);
   g_free(health->structure);
   *health = (SbStoreHealth){0};
+}
+
+char *sb_store_cpus(SbStore *store) {
+  GString *text = g_string_new(NULL);
+  sqlite3_stmt *query = NULL;
+  if (sqlite3_prepare_v2(store->file, "SELECT DISTINCT cpu FROM origin ORDER BY cpu", -1, &query,
+                         NULL) == SQLITE_OK) {
+    while (sqlite3_step(query) == SQLITE_ROW) {
+      const char *cpu = (const char *)sqlite3_column_text(query, 0);
+      g_string_append_printf(text, "%s%s", text->len > 0 ? "; " : "", cpu != NULL ? cpu : "");
+    }
+  }
+  sqlite3_finalize(query);
+  return g_string_free(text, FALSE);
 }
 
 // ---- Copies ----
@@ -272,6 +307,9 @@ static bool is_new(bool *good, Copy *copy, const SbStoreRow *row, const SbStoreR
 
 static bool copy_row(void *data, const SbStoreRow *row) {
   Copy *copy = data;
+  if (copy->error != NULL) {
+    return false;
+  }
   if (row->damage != NULL) {
     if (copy->strict) {
       g_autofree char *name = sb_store_row_name(row);
@@ -317,7 +355,16 @@ static bool copy_origins(SbStore *to, SbStore *from, GError **error) {
   return good;
 }
 
-// Copies rows and origins; of a store that is not `strict` also what can be read from its end.
+static bool visit_page(void *data, SbStore *page) {
+  const Visit *all = data;
+  const Visit visit = {page, all->lists, all->visit, all->data};
+  guint64 number = 0;
+  (void)visit_rows(&visit, false, &number);
+  return number > 0;
+}
+
+// Copies rows and origins; of a damaged store that is not `strict` also the rows of pages that the
+// table does not lead to.
 static bool copy_rows(Copy *copy, SbStore *from, GError **error) {
   static const char find[] = "SELECT key, list, status, reason, warnings, parameters, figures, sum "
                              "FROM answer WHERE key = ?";
@@ -326,13 +373,18 @@ static bool copy_rows(Copy *copy, SbStore *from, GError **error) {
     good = sb_store_fail(copy->to, SB_APP_ERROR_IO, error);
   }
   if (good) {
-    const Visit visit = {from, read_lists(from), copy_row, copy};
+    Visit visit = {from, read_lists(from), copy_row, copy};
     guint64 number = 0;
     const int code = visit_rows(&visit, false, &number);
-    if (code != SQLITE_DONE && copy->strict && copy->error == NULL) {
-      (void)sb_store_fail(from, SB_APP_ERROR_INPUT, &copy->error);
-    } else if (code != SQLITE_DONE && copy->error == NULL) {
-      (void)visit_rows(&visit, true, &number);
+    g_autofree char *structure = code == SQLITE_DONE ? structure_of(from) : NULL;
+    const bool whole = code == SQLITE_DONE && structure == NULL;
+    if (!whole && copy->strict && copy->error == NULL) {
+      g_set_error(&copy->error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                  "%s is damaged (%s); nothing was merged: sealbench store recover saves the sound "
+                  "rows",
+                  copy->from, structure != NULL ? structure : sqlite3_errstr(code));
+    } else if (!whole && copy->error == NULL) {
+      sb_store_visit_pages(from, visit_page, &visit);
     }
     g_hash_table_unref(visit.lists);
   }

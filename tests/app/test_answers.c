@@ -429,6 +429,67 @@ static void test_old_format(void) {
   g_unlink(path);
 }
 
+// Returns the number of rows that are saved from a file of these bytes; *sound: whether it has no
+// damage.
+static guint64 saved_rows(bool *sound, const char *bytes, gsize length) {
+  g_autofree char *path = in_folder("pages.store"), *to = in_folder("saved.store");
+  g_autoptr(GError) error = NULL;
+  g_assert_true(g_file_set_contents(path, bytes, (gssize)length, NULL));
+  SbStore *store = sb_store_open_rows(path, &error);
+  g_assert_no_error(error);
+  SbStoreHealth health;
+  sb_store_health(&health, store);
+  *sound = health.structure == NULL && health.damaged == 0;
+  sb_store_health_release(&health);
+  guint64 saved = 0, rows;
+  g_assert_true(sb_store_recover(&saved, store, to, &error));
+  sb_store_discard(store);
+  store = sb_store_open_rows(to, &error);
+  g_assert_no_error(error);
+  rows = sb_store_count(store);
+  g_assert_cmpuint(rows, ==, saved);
+  sb_store_discard(store);
+  g_unlink(path);
+  g_unlink(to);
+  return rows;
+}
+
+// A file that is cut, and one whose root is another page: both are damaged, and the rows of their
+// intact pages are saved.
+static void test_pages(void) {
+  enum { ROWS = 4000, PAGE = 4096 };
+  static const char *const names[] = {"a", NULL};
+  g_autofree char *path = in_folder("rows.store"), *bytes = NULL;
+  SbStore *store = open_store(path);
+  g_assert_true(sb_store_set_list(store, names, names, NULL));
+  for (int i = 0; i < ROWS; i++) {
+    guint8 key[SB_STORE_KEY] = {(guint8)(i * 37), (guint8)(i / 256)};
+    double number = i;
+    const SbStoredAnswer answer = {.value = &number};
+    g_assert_true(sb_store_put(store, key, &number, &answer, NULL));
+  }
+  close_store(store);
+  gsize length = 0;
+  g_assert_true(g_file_get_contents(path, &bytes, &length, NULL));
+  bool sound;
+  g_assert_cmpuint(saved_rows(&sound, bytes, length), ==, ROWS);
+  g_assert_true(sound);
+  for (int percent = 40; percent < 100; percent += 10) {
+    const guint64 saved = saved_rows(&sound, bytes, length * (gsize)percent / 100);
+    g_assert_false(sound);
+    g_assert_cmpuint(saved * 100, >, (guint64)((percent - 30) * ROWS));
+    g_assert_cmpuint(saved, <, ROWS);
+  }
+  memcpy(bytes + PAGE * 2, bytes + PAGE * 7, PAGE);
+  const guint64 saved = saved_rows(&sound, bytes, length);
+  g_assert_false(sound);
+  g_assert_cmpuint(saved, >, ROWS * 9 / 10);
+  g_unlink(path);
+  g_autoptr(GError) error = NULL;
+  g_assert_null(sb_store_open(folder, &error));
+  g_assert_nonnull(strstr(error->message, "is a folder"));
+}
+
 static void test_names(void) {
   static const char *const names[] = {"", "-", ":memory:"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
@@ -498,6 +559,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/answers/damage", test_damage);
   g_test_add_func("/answers/finished", test_finished);
   g_test_add_func("/answers/old-format", test_old_format);
+  g_test_add_func("/answers/pages", test_pages);
   g_test_add_func("/answers/names", test_names);
   g_test_add_func("/answers/no-store", test_no_store);
   const int failed = g_test_run();
