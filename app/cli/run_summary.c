@@ -15,9 +15,8 @@
 
 enum {
   COLUMNS = 80,
-  LOOP_LINES = 6, // that the text leaves for the loop: a blank line, the heading, four of dots
+  LOOP_LINES_MIN = 5, // of the loop: a blank line, the heading, three of dots
   LOOP_LINES_MAX = 14,
-  ITEM_LINES_MAX = 4, // of a wrapped item
   VERDICT_WIDTH = 8,
   VALUE_WIDTH = 12
 };
@@ -37,11 +36,29 @@ static void add_item(GPtrArray *items, const char *label, int width, const char 
       items, g_strdup_printf("  %s%*s  %s", label, MAX(width - sb_wrap_width(label), 0), "", text));
 }
 
+// Breaks words that are longer than a line. Owned by the caller.
+static char *break_words(const char *text, int columns) {
+  GString *out = g_string_new(NULL);
+  int column = 0;
+  for (const char *at = text; *at != '\0'; at = g_utf8_next_char(at)) {
+    g_autofree char *one = g_strndup(at, (gsize)(g_utf8_next_char(at) - at));
+    const int width = *at == '\n' ? 0 : sb_wrap_width(one);
+    if (column + width > columns) {
+      g_string_append_c(out, '\n');
+      column = 0;
+    }
+    g_string_append(out, one);
+    column = *at == '\n' ? 0 : column + width;
+  }
+  return g_string_free(out, FALSE);
+}
+
 // The item wrapped into lines of at most `columns`; with more than `most` lines the last one ends
 // with an ellipsis. Owned by the caller (g_strfreev).
 static char **item_lines(const char *item, int columns, int most) {
   g_autofree char *wrapped = sb_wrap_line(item, columns);
-  char **lines = g_strsplit(wrapped, "\n", -1);
+  g_autofree char *broken = break_words(wrapped, columns);
+  char **lines = g_strsplit(broken, "\n", -1);
   if ((int)g_strv_length(lines) > most) {
     g_autofree char *last = lines[most - 1];
     char *end = last + strlen(last);
@@ -67,19 +84,22 @@ static int count_lines(const GPtrArray *items, int columns, int most) {
 }
 
 // Prints the items in at most `room` lines and returns the number of lines. Each item has at least
-// one line.
+// one line; the longest ones are shortened first.
 static int print_items(const GPtrArray *items, int columns, int room) {
-  int most = ITEM_LINES_MAX;
+  int most = MAX(count_lines(items, columns, INT_MAX), 1);
   while (most > 1 && count_lines(items, columns, most) > room) {
     most--;
   }
+  int used = count_lines(items, columns, most);
   for (guint i = 0; i < items->len; i++) {
-    g_auto(GStrv) lines = item_lines(items->pdata[i], columns, most);
+    const int extra = used < room ? 1 : 0; // for the first items
+    g_auto(GStrv) lines = item_lines(items->pdata[i], columns, most + extra);
+    used += (int)g_strv_length(lines) > most ? 1 : 0;
     for (char **line = lines; *line != NULL; line++) {
       printf("%s\n", *line);
     }
   }
-  return count_lines(items, columns, most);
+  return used;
 }
 
 // ---- Parts of the summary ----
@@ -176,7 +196,6 @@ void sb_cli_run_summary(const SbCliRunText *of) {
   const SbSummary *summary = sb_run_summary(of->run);
   const int terminal = sb_wrap_columns(STDOUT_FILENO);
   const int columns = terminal > 0 ? terminal : COLUMNS;
-  const int loop = of->plots->off ? 0 : LOOP_LINES;
   const int room = SB_CLI_SUMMARY_LINES - (of->folder != NULL);
   g_autoptr(GPtrArray) items = g_ptr_array_new_with_free_func(g_free);
   g_ptr_array_add(items, g_strdup(of->title));
@@ -185,10 +204,12 @@ void sb_cli_run_summary(const SbCliRunText *of) {
   }
   add_figures(items, of);
   add_remarks(items, of, summary);
-  // A narrow terminal gets more lines instead of numbers that are cut.
-  const int used = print_items(items, columns, columns < COLUMNS ? INT_MAX : room - loop);
-  if (loop > 0) {
-    sb_cli_plot_run(of->run, of->measured, CLAMP(room - used, loop, LOOP_LINES_MAX) - 1);
+  // The loop takes the lines that the text leaves. A narrow terminal gets more lines instead of
+  // numbers that are cut.
+  const bool narrow = columns < COLUMNS;
+  const int left = room - print_items(items, columns, narrow ? INT_MAX : room);
+  if (!of->plots->off && (narrow || left >= LOOP_LINES_MIN)) {
+    sb_cli_plot_run(of->run, of->measured, CLAMP(left, LOOP_LINES_MIN, LOOP_LINES_MAX) - 1);
   }
   if (of->folder != NULL) {
     printf("Results are in %s\n", of->folder);

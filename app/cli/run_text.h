@@ -20,9 +20,9 @@ enum { SB_CLI_SUMMARY_LINES = 24 };
 
 // Prints the verdict with its reasons, the eight key figures with the absolute estimates of their
 // errors, the number of warnings and the loop, in at most SB_CLI_SUMMARY_LINES lines that fit the
-// terminal (80 columns elsewhere). Long reasons are wrapped while enough lines remain for the loop,
-// else they end with an ellipsis. A terminal with fewer than 80 columns gets more lines instead.
-// The loop takes the remaining lines; --no-plot omits it.
+// terminal (80 columns elsewhere). Long reasons are wrapped; the loop takes the remaining lines, if
+// enough remain. Only reasons for which SB_CLI_SUMMARY_LINES are too few end with an ellipsis. A
+// terminal with fewer than 80 columns gets more lines instead. --no-plot omits the loop.
 void sb_cli_run_summary(const SbCliRunText *of);
 
 // Prints the tables of app/export/run_tables.h (figures, stages, verdict, warnings) and the state

@@ -176,6 +176,10 @@ SbTable *sb_run_stages(const SbSummary *summary) {
 char *sb_run_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict) {
   const SbVerdict *of = &verdict->of;
   g_autoptr(GString) text = g_string_new(sb_verdict_answer(of->ok));
+  // Before the reason, which may be long.
+  if (verdict->name != NULL) {
+    g_string_append_printf(text, ", case %s", verdict->name);
+  }
   if (!isnan(of->value)) {
     g_autofree char *label = sb_figure_label(of->figure);
     g_autofree char *figure = sb_verdict_figure_plain(summary, kind, of);
@@ -183,9 +187,6 @@ char *sb_run_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdic
   }
   if (of->reason[0] != '\0') {
     g_string_append_printf(text, " (%s)", of->reason);
-  }
-  if (verdict->name != NULL) {
-    g_string_append_printf(text, ", case %s", verdict->name);
   }
   return g_string_free(g_steal_pointer(&text), FALSE);
 }
