@@ -173,18 +173,30 @@ char *sb_figure_label(int index) {
   return g_strconcat(figure->label, *figure->where != '\0' ? ", " : "", figure->where, NULL);
 }
 
-const char *sb_figure_compared_unit(int index, double value) {
-  return unit_of(index, value);
+// Returns the design whose value has the unit and the digits of a comparison: the first one with a
+// value other than 0, which has no size; without one, the first design.
+static size_t reference_of(const SbFigureCompared *design, size_t count) {
+  for (size_t i = 0; i < count; i++) {
+    if (isfinite(design[i].value) && design[i].value != 0) {
+      return i;
+    }
+  }
+  return 0;
+}
+
+const char *sb_figure_compared_unit(int index, const SbFigureCompared *design, size_t count) {
+  return unit_of(index, design[reference_of(design, count)].value);
 }
 
 int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_t count) {
-  const SbFigureCompared *base = &design[0];
+  const size_t reference = reference_of(design, count);
+  const SbFigureCompared *base = &design[reference];
   const char *unit = unit_of(index, base->value);
   const int digits = sb_figure(index)->digits;
   double relative;
   const double shown = to_unit(&relative, index, unit, base->value, base->error);
   int decimals = sb_format_decimals(shown, digits, relative);
-  for (size_t i = 1; i < count; i++) {
+  for (size_t i = reference + 1; i < count; i++) {
     const bool same = design[i].methods == base->methods;
     const double error = sb_figure_difference_error(base->value, base->error, design[i].value,
                                                     design[i].error, same);
@@ -218,7 +230,7 @@ const char *sb_figure_compared(char *value, char *change, int index, const SbFig
                                size_t count, size_t at) {
   const SbFigure *figure = sb_figure(index);
   const SbFigureCompared *own = &design[at], *base = &design[0];
-  const char *unit = unit_of(index, base->value);
+  const char *unit = sb_figure_compared_unit(index, design, count);
   *change = '\0';
   if (!isfinite(own->value) || figure->digits == 0) {
     g_autofree char *text = sb_figure_format(index, own->value, NAN);

@@ -57,11 +57,13 @@ typedef struct {
 
 // Returns the decimals, in the unit that sb_figure_compared_unit() chooses, with which a figure of
 // `count` designs is printed next to each other: those that the error of the differences from the
-// first design supports (sb_figure_difference_error()), and no more than the figure's digits.
+// first design with a value other than 0 supports (sb_figure_difference_error()), and no more than
+// the figure's digits. If there is no other value, they are the decimals of sb_figure_format().
 int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_t count);
 
-// Returns the unit of all values of a comparison whose first one is `value` [SI]. Static.
-const char *sb_figure_compared_unit(int index, double value);
+// Returns the display unit of all values of a comparison: that of the first value other than 0.
+// Static.
+const char *sb_figure_compared_unit(int index, const SbFigureCompared *design, size_t count);
 
 // Writes the value of design `at` (from 0) of `count`, and its difference from the first design
 // with a sign, with the decimals of sb_figure_compared_decimals(), in plain ASCII without the unit.

@@ -53,14 +53,6 @@ static const SbChartRun *run_of(const SbChartData *data, size_t column) {
   return column == 0 ? &data->run : data->pin[column - 1].run;
 }
 
-// One figure of all columns; `error` relative, of the column's own run.
-static void set_decimals(Row *row, const SbChartData *data, int figure,
-                         const SbFigureCompared *design) {
-  row->decimals = isfinite(design[0].value)
-                      ? sb_figure_compared_decimals(figure, design, 1 + data->pin_count)
-                      : 1;
-}
-
 static uint64_t methods_of(const SbChartRun *run) {
   return run->model != NULL ? sb_model_methods(run->model) : 0;
 }
@@ -82,7 +74,8 @@ static void playhead_row(Row *row, const SbChartData *data, int way) {
                     run->summary->outcome == SB_OUTCOME_STUCK;
     design[i] = (SbFigureCompared){force[way], sb_chart_error_force(run), methods_of(run)};
   }
-  set_decimals(row, data, sb_figure_find("cycle.stages.C.force_N"), design);
+  row->decimals = sb_figure_compared_decimals(sb_figure_find("cycle.stages.C.force_N"), design,
+                                              1 + data->pin_count);
 }
 
 static void figure_row(Row *row, const SbChartData *data, size_t k) {
@@ -98,7 +91,8 @@ static void figure_row(Row *row, const SbChartData *data, size_t k) {
                                    summary != NULL ? sb_figure_error(summary, index) : NAN,
                                    methods_of(run)};
   }
-  g_strlcpy(row->unit, sb_figure_compared_unit(index, design[0].value), sizeof row->unit);
+  g_strlcpy(row->unit, sb_figure_compared_unit(index, design, 1 + data->pin_count),
+            sizeof row->unit);
   for (size_t i = 0; i <= data->pin_count; i++) {
     row->value[i] = sb_quantity_to_shown(design[i].value, figure->si, row->unit);
   }
@@ -106,7 +100,7 @@ static void figure_row(Row *row, const SbChartData *data, size_t k) {
     const SbMeasuredStage *stage = &data->measured->measured->stage[figures[k].stage];
     row->measured = stage->found ? stage->force : NAN;
   }
-  set_decimals(row, data, index, design);
+  row->decimals = sb_figure_compared_decimals(index, design, 1 + data->pin_count);
 }
 
 static void make(Row *row, const SbChartData *data, size_t index) {

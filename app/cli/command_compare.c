@@ -25,6 +25,9 @@ typedef struct {
 
 static void clear_run(void *data) {
   Run *run = data;
+  for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+    g_free(run->of.reason[f]);
+  }
   sb_run_destroy(run->run);
   sb_comparison_free((SbComparison *)run->of.comparison);
   sb_measured_free(run->measured);
@@ -42,6 +45,7 @@ static void add_run(GPtrArray *runs, const SbCliFile *file, SbRun *run, const ch
                 .measured = measured};
   for (int f = 0; f < SB_FIGURE_COUNT; f++) {
     kept->of.figure[f] = sb_figure_value(sb_run_summary(run), f);
+    kept->of.reason[f] = g_strdup(sb_figure_reason(sb_run_summary(run), f));
     kept->error[f] = sb_figure_error(sb_run_summary(run), f);
   }
   SbLoop loop = {0};

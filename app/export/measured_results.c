@@ -140,6 +140,13 @@ char *sb_results_compare(const SbComparedRun *const *run, size_t runs) {
       sb_json_number(&json, sb_figure(f)->path, run[i]->figure[f]);
     }
     sb_json_object_end(&json);
+    sb_json_object(&json, "reasons");
+    for (int f = 0; f < SB_FIGURE_COUNT; f++) {
+      if (run[i]->reason[f] != NULL) {
+        sb_json_string(&json, sb_figure(f)->path, run[i]->reason[f]);
+      }
+    }
+    sb_json_object_end(&json);
     sb_json_number(&json, "rms_N", run[i]->comparison != NULL ? run[i]->comparison->rms : NAN);
     sb_json_object_end(&json);
   }

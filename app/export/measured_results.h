@@ -30,9 +30,11 @@ void sb_json_measured_stages(SbJson *json, const SbComparison *comparison);
 typedef struct {
   const char *name, *scene;       // title, and full path of the file ("-": standard input)
   double figure[SB_FIGURE_COUNT]; // SI; NaN: none
+  char *reason[SB_FIGURE_COUNT];  // why a figure has no value; NULL: it has one
   const SbComparison *comparison; // with its measured loop; NULL: there is none
 } SbComparedRun;
 
-// Returns the JSON document of `sealbench compare` for run[runs]: the figures of each run, their
-// differences from the first run, and the comparison of the first run with its measurement.
+// Returns the JSON document of `sealbench compare` for run[runs]: the figures of each run with the
+// reasons of missing ones, their differences from the first run, and the comparison of the first
+// run with its measurement.
 char *sb_results_compare(const SbComparedRun *const *run, size_t runs);

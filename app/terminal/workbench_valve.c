@@ -38,7 +38,7 @@ static void compare_row(SbBench *bench, int x, int y, const char *label, int fig
                                    summary != NULL ? sb_figure_error(summary, figure) : NAN,
                                    run->model != NULL ? sb_model_methods(run->model) : 0};
   }
-  const char *unit = sb_figure_compared_unit(figure, design[0].value);
+  const char *unit = sb_figure_compared_unit(figure, design, count);
   g_autofree char *head = sb_figure(figure)->quantity == SB_FIGURE_QUANTITY_FORCE
                               ? g_strdup(label)
                               : g_strdup_printf("%s / %s", label, unit);

@@ -261,14 +261,17 @@ static void test_compared(void) {
   const SbFigureCompared other[] = {{25.826, 0.03, 7}, {23.984, 0.03, 8}};
   const SbFigureCompared exact[] = {{35, 0, 7}, {30, 0, 7}};
   const SbFigureCompared lacking[] = {{25.826, 0.03, 7}, {NAN, NAN, 7}};
+  const SbFigureCompared second[] = {{NAN, NAN, 7}, {1.0789, 3e-4, 8}};
+  const SbFigureCompared nil[] = {{0, 0, 7}, {1.0789, 3e-4, 8}};
   static const struct {
     const char *first, *second, *change;
-  } texts[] = {
-      {"25.83", "23.98", "-1.84"}, {"25.8", "24.0", "-1.8"}, {"35", "30", "-5"}, {"25.8", "-", ""}};
-  const SbFigureCompared *const designs[] = {same, other, exact, lacking};
+  } texts[] = {{"25.83", "23.98", "-1.84"}, {"25.8", "24.0", "-1.8"}, {"35", "30", "-5"},
+               {"25.8", "-", ""},           {"-", "1.079", ""},       {"0", "1.079", "+1.079"}};
+  const SbFigureCompared *const designs[] = {same, other, exact, lacking, second, nil};
   for (size_t i = 0; i < G_N_ELEMENTS(designs); i++) {
     char value[SB_FORMAT_MAX], change[SB_FORMAT_MAX];
-    g_assert_cmpstr(sb_figure_compared(value, change, figure, designs[i], 2, 0), ==, "N");
+    const char *unit = isfinite(designs[i][0].value) ? "N" : "";
+    g_assert_cmpstr(sb_figure_compared(value, change, figure, designs[i], 2, 0), ==, unit);
     g_assert_cmpstr(value, ==, texts[i].first);
     g_assert_cmpstr(change, ==, "");
     sb_figure_compared(value, change, figure, designs[i], 2, 1);

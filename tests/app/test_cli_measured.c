@@ -61,7 +61,9 @@ static void test_differences(void) {
   CliResult result = CLI("compare", scene, "--set", "canister.pressure=0.5MPa", "--json", "-");
   g_assert_cmpint(result.code, ==, 0);
   JsonNode *root = cli_parse(result.out);
-  cli_has_keys(root, "runs.0.name runs.0.figures differences measured.rms_N measured.stages.B");
+  cli_has_keys(
+      root,
+      "runs.0.name runs.0.figures runs.0.reasons differences measured.rms_N measured.stages.B");
   json_node_unref(root);
   cli_clear(&result);
   result = CLI("compare", quick, scene, "--set", "canister.pressure=0.5MPa", "--measured", table,
