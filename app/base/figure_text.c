@@ -110,6 +110,10 @@ char *sb_figure_text(char *out, int index, double value, double error) {
   return out;
 }
 
+double sb_figure_error_reported(const SbSummary *summary, int index) {
+  return sb_figure_error_reason(summary, index) == NULL ? sb_figure_error(summary, index) : NAN;
+}
+
 char *sb_format_figure(char *out, const SbSummary *summary, int index) {
   return sb_figure_text(out, index, sb_figure_value(summary, index),
                         sb_figure_error(summary, index));

@@ -18,6 +18,10 @@ void sb_figure_parts(SbFormatted *out, int index, double value, double error);
 // returns `out`.
 char *sb_figure_text(char *out, int index, double value, double error);
 
+// Returns the relative error of a figure that tables and files report; NaN if it must not be
+// reported: sb_figure_error_reason() then has the reason.
+double sb_figure_error_reported(const SbSummary *summary, int index);
+
 // As sb_figure_text(), with the value and error estimate of a run.
 char *sb_format_figure(char *out, const SbSummary *summary, int index);
 

@@ -19,11 +19,11 @@ void sb_csv_figures(FILE *stream, const SbRun *run) {
   g_autoptr(SbTable) table = sb_table_new(columns, G_N_ELEMENTS(columns));
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     g_autofree char *label = sb_figure_label(i);
-    sb_table_add(table, SB_CELLS(sb_cell_text(sb_figure(i)->path),
-                                 sb_cell_number(sb_figure_value(summary, i)),
-                                 sb_cell_text(sb_figure(i)->si),
-                                 sb_cell_number(sb_figure_error(summary, i)), sb_cell_text(label),
-                                 sb_cell_text(sb_figure_reason(summary, i))));
+    sb_table_add(
+        table, SB_CELLS(sb_cell_text(sb_figure(i)->path),
+                        sb_cell_number(sb_figure_value(summary, i)), sb_cell_text(sb_figure(i)->si),
+                        sb_cell_number(sb_figure_error_reported(summary, i)), sb_cell_text(label),
+                        sb_cell_text(sb_figure_error_reason(summary, i))));
   }
   sb_table_csv(stream, table);
 }

@@ -2,6 +2,7 @@
 #include "app/export/results.h"
 
 #include "app/base/device.h"
+#include "app/base/figure_text.h"
 #include "app/base/unit.h"
 #include "app/export/csv.h"
 #include "app/export/measured_results.h"
@@ -263,8 +264,7 @@ static void put_errors(SbJson *json, const SbRun *run) {
   sb_json_object(json, "error_estimates");
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
     if (is_there(run, i)) {
-      const bool known = sb_figure_error_reason(summary, i) == NULL;
-      sb_json_number(json, sb_figure(i)->path, known ? sb_figure_error(summary, i) : NAN);
+      sb_json_number(json, sb_figure(i)->path, sb_figure_error_reported(summary, i));
     }
   }
   sb_json_object_end(json);

@@ -16,7 +16,7 @@ char *sb_run_value(const SbSummary *summary, int index) {
 }
 
 char *sb_run_error(const SbSummary *summary, int index) {
-  const double error = sb_figure_error(summary, index);
+  const double error = sb_figure_error_reported(summary, index);
   char digits[SB_FORMAT_MAX];
   if (isnan(sb_figure_value(summary, index)) || isnan(error)) {
     return g_strdup("");

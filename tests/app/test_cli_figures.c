@@ -236,6 +236,22 @@ static void test_table(void) {
   g_assert_nonnull(strstr(text, "\ncycle.leakage_per_cycle_m3,,m3,,Leakage per cycle,the stem"));
   g_assert_nonnull(strstr(text, ",\"Load, outer seal\",\n"));
   cli_remove_results(out);
+  // An error that the JSON withholds is not in the table, which has the JSON's reason.
+  run = CLI("run", "sliding-plate", "-o", out, "--quiet");
+  g_assert_cmpint(run.code, ==, 0);
+  cli_clear(&run);
+  g_autofree char *plate = cli_contents(out, "figures.csv");
+  g_autofree char *json = cli_contents(out, "results.json");
+  g_autoptr(JsonNode) root = cli_parse(json);
+  JsonObject *object = json_node_get_object(root);
+  JsonObject *reasons = json_object_get_object_member(object, "reasons");
+  const char *reason =
+      json_object_get_string_member(reasons, "error_estimates.cycle.energy.stop_J");
+  g_autofree char *row =
+      g_strdup_printf("\ncycle.energy.stop_J,0,J,,Energy lost at the stops,%s\n", reason);
+  g_assert_nonnull(strstr(plate, row));
+  g_assert_null(strstr(plate, ",inf,"));
+  cli_remove_results(out);
 }
 
 // Derivatives by name in SI, the table, and what is told.
