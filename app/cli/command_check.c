@@ -7,6 +7,7 @@
 #include "app/document/rubber_sheet.h"
 #include "app/document/seal_file.h"
 #include "app/document/shipped.h"
+#include "app/study/calibrate.h"
 
 #include <math.h>
 #include <string.h>
@@ -62,6 +63,9 @@ static void check_study(Check *check) {
   check->kind = "study";
   check->study = sb_study_file_parse(check->text, check->length, check->shown, check->directory,
                                      check->settings, NULL, check->issues[SEVERITY_ERROR]);
+  if (check->study != NULL && check->study->data->len > 0) {
+    sb_calibrate_check(check->study, check->issues[SEVERITY_ERROR]);
+  }
 }
 
 // A table of numbers without any group: a measured loop.

@@ -202,24 +202,51 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
   return status;
 }
 
-SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCalibrateHooks *hooks,
-                      GPtrArray *issues, SbReport *report) {
-  *out = (SbCalibration){.curves = study->data->len, .rms = NAN, .chi2 = NAN};
-  Work work = {.study = study, .hooks = hooks, .curves = study->data->len};
-  work.curve = g_new0(Curve, work.curves);
-  out->curve = g_new0(SbCalibratedCurve, work.curves);
-  bool good = sb_calibrate_check_vary(&work, issues);
-  for (size_t c = 0; c < work.curves && good; c++) {
-    work.curve[c].data = study->data->pdata[c];
-    good = sb_calibrate_read_curve(&work.curve[c], &work, issues);
-  }
-  SbStatus status = SB_ERROR_INPUT;
+// Begins the work on a study: reads its priors and all of its curves. Returns false with issues.
+// Ended by end_work() in any case.
+static bool begin_work(Work *work, const SbStudyFile *study, const SbCalibrateHooks *hooks,
+                       GPtrArray *issues) {
+  *work = (Work){.study = study, .hooks = hooks, .curves = study->data->len};
+  work->curve = g_new0(Curve, work->curves);
   g_autofree SbPlan *plan = g_new(SbPlan, 1);
   const SbPlanWishes wishes = {.views = SB_VIEW_HYSTERESIS};
   sb_plan_wished(plan, study->base, &wishes);
-  work.rings = plan->ring;
-  work.tangent = out->tangent = sb_plan_cost(plan) > 0.02;
-  if (good && sb_calibrate_lay_out(&work, issues)) {
+  work->rings = plan->ring;
+  work->tangent = sb_plan_cost(plan) > 0.02;
+  bool good = sb_calibrate_check_vary(work, issues);
+  for (size_t c = 0; c < work->curves; c++) {
+    work->curve[c].data = study->data->pdata[c];
+    good = sb_calibrate_read_curve(&work->curve[c], work, issues) && good;
+  }
+  return good && sb_calibrate_lay_out(work, issues);
+}
+
+static void end_work(Work *work) {
+  for (size_t c = 0; c < work->curves; c++) {
+    Curve *curve = &work->curve[c];
+    sb_measured_free(curve->measured);
+    g_free(curve->point);
+    sb_run_destroy(curve->beside);
+    sb_run_destroy(curve->run);
+    sb_loop_clear(&curve->loop);
+  }
+  g_free(work->curve);
+}
+
+void sb_calibrate_check(const SbStudyFile *study, GPtrArray *issues) {
+  Work work;
+  (void)begin_work(&work, study, NULL, issues);
+  end_work(&work);
+}
+
+SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCalibrateHooks *hooks,
+                      GPtrArray *issues, SbReport *report) {
+  *out = (SbCalibration){.curves = study->data->len, .rms = NAN, .chi2 = NAN};
+  out->curve = g_new0(SbCalibratedCurve, out->curves);
+  SbStatus status = SB_ERROR_INPUT;
+  Work work;
+  if (begin_work(&work, study, hooks, issues)) {
+    out->tangent = work.tangent;
     out->parameters = work.parameters;
     out->parameter = g_new0(SbCalibrated, work.parameters);
     for (size_t j = 0; j < work.parameters; j++) {
@@ -233,15 +260,7 @@ SbStatus sb_calibrate(SbCalibration *out, const SbStudyFile *study, const SbCali
     }
     status = infer(out, &work, report);
   }
-  for (size_t c = 0; c < work.curves; c++) {
-    Curve *curve = &work.curve[c];
-    sb_measured_free(curve->measured);
-    g_free(curve->point);
-    sb_run_destroy(curve->beside);
-    sb_run_destroy(curve->run);
-    sb_loop_clear(&curve->loop);
-  }
-  g_free(work.curve);
+  end_work(&work);
   return status;
 }
 

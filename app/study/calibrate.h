@@ -99,6 +99,10 @@ typedef struct {
   void *data;
 } SbCalibrateHooks;
 
+// Adds the issues of a study for which sb_calibrate() would return SB_ERROR_INPUT with issues: on
+// its priors, on its measured files and on the keys of its groups [data]. Nothing is computed.
+void sb_calibrate_check(const SbStudyFile *study, GPtrArray *issues);
+
 // Fits the parameters and samples the posterior. `study` must have groups [vary] and [data]; it is
 // only read, but must outlive *out. Call sb_calibration_release() in any case. Returns SB_OK;
 // SB_ERROR_INPUT with issues on the files or on [vary], or with the report alone if the stem does

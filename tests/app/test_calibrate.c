@@ -510,6 +510,11 @@ static void test_refused(void) {
       g_error("%s instead of %s", line, cases[i].said);
     }
     sb_calibration_release(&found);
+    g_autoptr(GPtrArray) checked = sb_issues_new();
+    sb_calibrate_check(study, checked);
+    g_assert_cmpuint(checked->len, ==, 1);
+    g_autofree char *same = sb_issue_line(checked->pdata[0]);
+    g_assert_cmpstr(same, ==, line);
   }
   g_unlink(file);
 }
