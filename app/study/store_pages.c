@@ -15,7 +15,7 @@ enum {
   CELLS_AT = 3,
   RIGHT_AT = 8,
   INTERIOR_HEADER = 12,
-  PAGES_MAX = 1 << 18 // a header may be damaged too
+  IMAGE_MAX = 1 << 28 // of a short file [bytes]: a header may be damaged too
 };
 
 static size_t read_number(const guint8 *at, int bytes) {
@@ -39,11 +39,14 @@ bool sb_store_load_image(SbStore *store) {
   }
   const size_t size = length >= FILE_HEADER ? page_size((guint8 *)bytes) : 0;
   const size_t count = size > 0 ? read_number((guint8 *)bytes + PAGE_COUNT_AT, 4) : 0;
-  if (size < 512 || count * size <= length || count > MAX(PAGES_MAX, 4 * length / size)) {
-    g_free(bytes); // it is complete, or no file of SQLite
+  const bool cut = size >= 512 && count * size > length;
+  guint8 *image =
+      cut && count * size <= MAX(IMAGE_MAX, 4 * length) ? g_try_realloc(bytes, count * size) : NULL;
+  if (image == NULL) {
+    g_free(bytes); // it is complete, no file of SQLite, or too large
     return false;
   }
-  store->image = g_realloc(bytes, count * size);
+  store->image = image;
   store->image_size = count * size;
   memset(store->image + length, 0, count * size - length);
   return true;
