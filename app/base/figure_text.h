@@ -62,7 +62,7 @@ typedef struct {
 // Returns the decimals, in the unit that sb_figure_compared_unit() chooses, with which a figure of
 // `count` designs is printed next to each other: those that the error of the differences from the
 // first design with a value other than 0 supports (sb_figure_difference_error()), and no more than
-// the figure's digits. If there is no other value, they are the decimals of sb_figure_format().
+// the figure's digits. A value that only one design has is printed as by sb_figure_format().
 int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_t count);
 
 // Returns the display unit of all values of a comparison: that of the first value other than 0.

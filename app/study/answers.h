@@ -1,8 +1,8 @@
 // Results of many samples of one model: those that a store has are read from it; the others are
 // computed on threads and stored.
 //
-// The result of a sample is that of `sealbench run` for the same valve, to the bit: it does not
-// depend on threads, shards, other samples or interruptions.
+// The result of a sample is that of `sealbench run` for the same valve, but for rounding: it does
+// not depend on threads, shards, other samples or interruptions.
 #pragma once
 
 #include "app/study/store.h"

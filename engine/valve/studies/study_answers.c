@@ -264,21 +264,6 @@ int sb_study_grid_column(const SbStudyWork *work, const char *name) {
 
 // ---- questions ----
 
-SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evaluator,
-                           const SbQuestion *question, SbReport *report) {
-  SbQuestion within = *question;
-  within.work_used = used_of_part(work, 1);
-  within.cancelled = work->hooks.cancelled;
-  within.data = work->hooks.data;
-  const SbStatus status = sb_evaluator_ask(value, evaluator, &within, report);
-  const SbSummary *summary = sb_evaluator_summary(evaluator);
-  work->budget.done += summary != NULL ? summary->work : 0;
-  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
-    (void)sb_study_goes_on(work, status, report);
-  }
-  return status;
-}
-
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides) {
   enum { PATHS = 8 };
@@ -292,13 +277,21 @@ void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, siz
   if (work->status != SB_OK) {
     return;
   }
-  SbQuestion question = {.base = &work->base,
-                         .override = override,
-                         .override_count = overrides,
-                         .figure = figure,
-                         .figure_count = paths};
+  const SbQuestion question = {.base = &work->base,
+                               .override = override,
+                               .override_count = overrides,
+                               .figure = figure,
+                               .figure_count = paths,
+                               .work_used = used_of_part(work, 1),
+                               .cancelled = work->hooks.cancelled,
+                               .data = work->hooks.data};
   SbReport report;
-  const SbStatus status = sb_study_question(work, value, work->evaluator, &question, &report);
+  const SbStatus status = sb_evaluator_ask(value, work->evaluator, &question, &report);
+  const SbSummary *summary = sb_evaluator_summary(work->evaluator);
+  work->budget.done += summary != NULL ? summary->work : 0;
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    (void)sb_study_goes_on(work, status, &report);
+  }
   if (work->status != SB_OK) {
     return;
   }

@@ -104,12 +104,6 @@ SB_STUDY_LIST(SB_STUDY_DECLARE)
 void sb_study_ask(SbStudyWork *work, double *value, const char *const *path, size_t paths,
                   const SbOverride *override, size_t overrides);
 
-// Asks `evaluator` the question (sb_evaluator_ask()) within the study's budget and with its
-// cancellation: the members work_used, cancelled and data of `question` are ignored. Returns the
-// status of sb_evaluator_ask(); the study ends if it is SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
-SbStatus sb_study_question(SbStudyWork *work, double *value, SbEvaluator *evaluator,
-                           const SbQuestion *question, SbReport *report);
-
 // Notes that a solver failed at abscissa x (NaN: at none in particular), and why, a sentence: the
 // study is not complete.
 void sb_study_gap(SbStudy *out, double x, const char *why);
