@@ -27,8 +27,8 @@ commands = {}
 with open(build + '/compile_commands.json', encoding='utf-8') as database:
     for entry in json.load(database):
         words = shlex.split(entry['command'])
-        path = os.path.relpath(os.path.join(entry['directory'], entry['file']), source)
-        layer = path.split(os.sep)[0]
+        # The target's folder: a file that is compiled may stand for a folder of the layer.
+        layer = entry['output'].split('/')[0]
         if layer in layers:
             first = next(i for i, word in enumerate(words) if word.startswith('-'))
             command = words[:first] + [
