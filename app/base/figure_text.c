@@ -119,6 +119,14 @@ char *sb_format_figure(char *out, const SbSummary *summary, int index) {
                         sb_figure_error(summary, index));
 }
 
+char *sb_seal_figure_text(char *out, const SbSummary *summary, int seal, const char *name,
+                          double value) {
+  g_autofree char *path = g_strdup_printf("seals.%s.%s", sb_seal_name(seal), name);
+  const int figure = sb_figure_find(path);
+  return sb_figure_text(out, figure, value,
+                        summary != NULL ? sb_figure_error(summary, figure) : NAN);
+}
+
 char *sb_figure_format(int index, double value, double error) {
   char plain[SB_NUMBER_SIZE];
   const char *unit;

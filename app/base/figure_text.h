@@ -25,6 +25,12 @@ double sb_figure_error_reported(const SbSummary *summary, int index);
 // As sb_figure_text(), with the value and error estimate of a run.
 char *sb_format_figure(char *out, const SbSummary *summary, int index);
 
+// Writes the value `value` [SI] that the figure `name` of a seal ("film_min_m") has at one state of
+// a run, with the error of that figure in the run, to out[SB_FORMAT_MAX]. Returns `out`. `summary`:
+// may be NULL, then the error is not known.
+char *sb_seal_figure_text(char *out, const SbSummary *summary, int seal, const char *name,
+                          double value);
+
 // Returns the same number in ASCII, for terminals and files: "-4.1 N"; "-" if the value is NaN.
 char *sb_figure_format(int index, double value, double error);
 

@@ -97,11 +97,7 @@ static void film_scale(SbAxes *at, const SbChartData *data) {
 // Parts of one chart
 
 void sb_profile_figure(char *out, const SbProfileChart *s, const char *name, double value) {
-  char path[64];
-  g_snprintf(path, sizeof path, "seals.%s.%s", sb_seal_name(s->index), name);
-  const int figure = sb_figure_find(path);
-  const SbSummary *summary = s->data->run.summary;
-  sb_figure_text(out, figure, value, summary != NULL ? sb_figure_error(summary, figure) : NAN);
+  sb_seal_figure_text(out, s->data->run.summary, s->index, name, value);
 }
 
 SbTextStyle sb_profile_style(const SbProfileChart *s) {

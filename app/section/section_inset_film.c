@@ -1,6 +1,7 @@
 // The inset of the film under the contact of one seal; see section_insets.c.
 #include "app/section/section_inset_private.h"
 
+#include "app/base/figure_text.h"
 #include "app/base/format.h"
 
 #include <glib.h>
@@ -135,8 +136,9 @@ static void draw_figures(const SbSectionInset *in, double x, double y, double bo
                          double width) {
   const SbColor ink = in->palette->ink, second = in->palette->second;
   char text[192], value[SB_SECTION_NUMBER], least[SB_SECTION_NUMBER], ratio[SB_SECTION_NUMBER];
-  sb_section_film(value, in->frame->film_central);
-  sb_section_film(least, in->frame->film_min);
+  const SbSummary *summary = in->section->instant->summary;
+  sb_seal_figure_text(value, summary, in->seal, "film_central_m", in->frame->film_central);
+  sb_seal_figure_text(least, summary, in->seal, "film_min_m", in->frame->film_min);
   const double across = in->rect.width / (in->x.hi - in->x.lo);
   sb_section_two_digits(ratio, (in->y.p1 - in->y.p0) / (in->y.hi * across));
   snprintf(text, sizeof text, _("centre %s, least %s"), value, least);

@@ -190,14 +190,11 @@ static void label_peak(const SbSectionInset *in) {
     }
   }
   char value[SB_SECTION_NUMBER];
-  const int figure = sb_figure_find(in->seal == SB_OUTER ? "seals.outer.pressure_peak_Pa"
-                                                         : "seals.inner.pressure_peak_Pa");
   const SbSectionLabel style = {13, 700, SB_MIDDLE, in->color, in->body};
-  const SbSummary *summary = in->section->instant->summary;
   sb_section_label(in->section, CLAMP(x, in->rect.x + 50, in->right - 50),
                    sb_axis_at(&in->y, pressure) + (in->gasket ? 18 : -9), &style,
-                   sb_figure_text(value, figure, pressure,
-                                  summary != NULL ? sb_figure_error(summary, figure) : NAN));
+                   sb_seal_figure_text(value, in->section->instant->summary, in->seal,
+                                       "pressure_peak_Pa", pressure));
 }
 
 // The width of the contact, as a dimension.
@@ -207,7 +204,8 @@ static void label_contact(const SbSectionInset *in) {
   const SbColor ink = in->palette->ink;
   char text[96], value[SB_SECTION_NUMBER];
   snprintf(text, sizeof text, _("contact %s"),
-           sb_section_millimetre(value, in->frame->contact_right - in->frame->contact_left));
+           sb_seal_figure_text(value, in->section->instant->summary, in->seal, "contact_width_m",
+                               in->frame->contact_right - in->frame->contact_left));
   sb_draw_line(in->list, left, y - 5, left, y + 5, 1.2, ink);
   sb_draw_line(in->list, right, y - 5, right, y + 5, 1.2, ink);
   sb_draw_line(in->list, left, y, right, y, 1.2, ink);

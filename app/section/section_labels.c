@@ -3,6 +3,8 @@
 // way.
 #include "app/section/section_private.h"
 
+#include "app/base/figure_text.h"
+
 #include <glib.h>
 #include <glib/gi18n.h>
 #include <math.h>
@@ -388,7 +390,8 @@ static void draw_zoom(SbSection *section) {
     sb_draw_line(list, b.x, y - 5, b.x, y + 5, 1.2, palette->ink);
     sb_draw_line(list, a.x, y, b.x, y, 1.2, palette->ink);
     snprintf(text, sizeof text, _("contact %s"),
-             sb_section_millimetre(value, seal->contact_right - seal->contact_left));
+             sb_seal_figure_text(value, section->instant->summary, i, "contact_width_m",
+                                 seal->contact_right - seal->contact_left));
     SbSectionLabel style = sb_section_label_style(palette->ink, 600, SB_MIDDLE, &palette->panel);
     bool inside = sb_text_width(section->text, text, 12, 600) + 30 < (double)(b.x - a.x);
     sb_section_label(section, (double)(a.x + b.x) / 2, inside ? y + 4 : y + 22, &style, text);

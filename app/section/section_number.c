@@ -56,14 +56,6 @@ const char *sb_section_millimetre(char *buffer, double metres) {
   return with_unit(buffer, " mm");
 }
 
-const char *sb_section_film(char *buffer, double metres) {
-  bool micro = metres >= 0.9995e-6;
-  double value = metres * (micro ? 1e6 : 1e9);
-  int decimals = value >= 100 ? 0 : value >= 10 ? 1 : value >= 0.1 ? 2 : 3;
-  sb_section_fixed(buffer, value, decimals);
-  return with_unit(buffer, micro ? " \xc2\xb5m" : " nm");
-}
-
 static SbRect label_rect(SbSection *section, double x, double y, const SbSectionLabel *style,
                          const char *string) {
   double width = sb_text_width(section->text, string, style->size, style->weight);

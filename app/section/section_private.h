@@ -174,9 +174,6 @@ const char *sb_section_megapascal(char *buffer, double pascals);
 // Writes a length [m] in mm, with two decimals below 10, one below 100.
 const char *sb_section_millimetre(char *buffer, double metres);
 
-// Writes a film thickness [m] in nm or µm, with three digits if it is 1 nm or more.
-const char *sb_section_film(char *buffer, double metres);
-
 // Writes a number without a unit with `decimals` decimals.
 const char *sb_section_fixed(char *buffer, double value, int decimals);
 
