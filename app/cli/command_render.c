@@ -121,12 +121,22 @@ static int render_film(const SbRun *run, SbRenderRequest *request, const char *o
   return good ? SB_EXIT_DONE : sb_cli_error(error);
 }
 
-// "piston.valve . thesis-cycle.scene", for the line below the title. Owned by the caller.
-static char *file_names(const SbDocument *document) {
+// Returns the line below the title: the names of the files and what --set changes in them, so that
+// two pictures of one file can be distinguished.
+static char *file_names(const SbDocument *document, char *const *settings) {
   const char *path = sb_document_path(document), *valve_path = sb_document_valve_path(document);
-  g_autofree char *own = path != NULL ? g_path_get_basename(path) : g_strdup("");
-  g_autofree char *valve = valve_path != NULL ? g_path_get_basename(valve_path) : NULL;
-  return valve != NULL ? g_strdup_printf("%s  \xc2\xb7  %s", valve, own) : g_strdup(own);
+  g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+  if (valve_path != NULL) {
+    g_ptr_array_add(names, g_path_get_basename(valve_path));
+  }
+  if (path != NULL) {
+    g_ptr_array_add(names, g_path_get_basename(path));
+  }
+  for (char *const *p = settings; p != NULL && *p != NULL; p++) {
+    g_ptr_array_add(names, g_strdup(*p));
+  }
+  g_ptr_array_add(names, NULL);
+  return g_strjoinv("  \xc2\xb7  ", (char **)names->pdata);
 }
 
 // Takes folders that a failure left empty away again: nothing was written.
@@ -155,7 +165,7 @@ static int render_study(const SbRenderRequest *request, SbDocument *document, co
   if (code == SB_EXIT_DONE || code == SB_EXIT_NOT_CONVERGED) {
     g_autofree char *sha256 = sb_document_sha256(document);
     g_autofree char *scene = sb_document_to_flat_text(document);
-    g_autofree char *subtitle = file_names(document);
+    g_autofree char *subtitle = file_names(document, request->options->settings);
     SbStudyPage page = {.model = model,
                         .title = sb_document_title(document),
                         .subtitle = subtitle,
@@ -193,7 +203,7 @@ static int render(const SbRun *run, const SbDocument *document, const SbMeasured
   sb_section_painter_style(painter, &style);
   g_autofree char *sha256 = sb_document_sha256(document);
   char *scene = sb_document_to_flat_text(document);
-  char *subtitle = file_names(document);
+  char *subtitle = file_names(document, request->options->settings);
   SbRenderOptions *how = &request->how;
   how->title = sb_document_title(document);
   how->subtitle = subtitle;

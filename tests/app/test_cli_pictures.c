@@ -407,10 +407,28 @@ static void test_interrupt(void) {
   interrupt_by(SIGHUP);
 }
 
+// What --set changes is in the picture, even where it changes no figure.
+static void test_settings_shown(void) {
+  char *picture[2];
+  for (int i = 0; i < 2; i++) {
+    char *path = g_build_filename(cli.folder, "set.svg", NULL);
+    CliResult result = CLI("render", cli.scene, "-o", path, "--view", "hysteresis", "--set",
+                           i == 0 ? "canister.pressure=0.55MPa" : "canister.pressure=0.550MPa");
+    g_assert_cmpint(result.code, ==, 0);
+    picture[i] = cli_contents(cli.folder, "set.svg");
+    cli_clear(&result);
+    g_free(path);
+  }
+  g_assert_cmpstr(picture[0], !=, picture[1]);
+  g_free(picture[0]);
+  g_free(picture[1]);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli-pictures/render", test_render);
+  g_test_add_func("/cli-pictures/settings-shown", test_settings_shown);
   g_test_add_func("/cli-pictures/studies", test_studies);
   g_test_add_func("/cli-pictures/film-file", test_film_file);
   g_test_add_func("/cli-pictures/animations", test_animations);
