@@ -4,6 +4,7 @@
 #include "app/base/figure_text.h"
 #include "app/base/nearest.h"
 #include "app/base/output.h"
+#include "app/base/reader.h"
 #include "app/document/shipped.h"
 #include "app/export/run_tables.h"
 #include "app/lazy/lazy.h"
@@ -156,13 +157,10 @@ char *sb_cli_full_path(const char *operand, unsigned kinds) {
   return strcmp(file, "-") == 0 ? g_strdup(file) : g_canonicalize_filename(file, NULL);
 }
 
-SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
-  g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
-  SbDocument *document = sb_document_load(file, issues);
-  if (document == NULL) {
-    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
-  }
+// Applies the settings, compiles the document and prints all problems and notes. Frees it and
+// returns NULL if there is any problem.
+static SbDocument *compile(SbModel **model, SbDocument *document, char **settings,
+                           GPtrArray *issues) {
   if (document != NULL) {
     sb_document_set_options(document, settings, issues);
   }
@@ -183,6 +181,36 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
     (void)sb_cli_fail("%s", note);
   }
   return document;
+}
+
+SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
+  SbDocument *document = sb_document_load(file, issues);
+  if (document == NULL) {
+    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
+  }
+  return compile(model, document, settings, issues);
+}
+
+SbDocument *sb_cli_open_either(SbStudyFile **study, SbModel **model, const char *path,
+                               char **settings) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN | SB_SHIPPED_FOR_STUDY);
+  size_t length = 0;
+  g_autofree char *text = sb_document_load_text(&length, file, issues);
+  bool grouped = false;
+  g_autofree char *kind = text != NULL ? sb_reader_kind(&grouped, text, length) : NULL;
+  *study = NULL;
+  if (text == NULL) {
+    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN | SB_SHIPPED_FOR_STUDY, issues);
+  } else if (g_strcmp0(kind, "study") != 0) {
+    return compile(model, sb_document_read(file, text, length, issues), settings, issues);
+  } else {
+    *study = sb_study_file_read(file, text, length, settings, issues);
+  }
+  sb_cli_issues(issues);
+  return NULL;
 }
 
 bool sb_cli_has_memory(const SbModel *model) {

@@ -132,23 +132,6 @@ static bool take_picture(Check *check) {
   return true;
 }
 
-// The value of [sealbench] kind; NULL: the text is not a key file with one. Owned by the caller.
-// *grouped: whether it has any group of a key file.
-static char *kind_of_text(bool *grouped, const Check *check) {
-  *grouped = g_strstr_len(check->text, (gssize)check->length, "[sealbench]") != NULL;
-  g_autoptr(GPtrArray) ignored = sb_issues_new();
-  g_autoptr(GPtrArray) entries = sb_reader_scan(check->text, check->length, "", ignored);
-  for (guint i = 0; i < entries->len; i++) {
-    const SbEntry *entry = entries->pdata[i];
-    *grouped = *grouped || entry->group != NULL;
-    if (entry->name != NULL && strcmp(entry->group, "sealbench") == 0 &&
-        strcmp(entry->name, "kind") == 0) {
-      return g_strdup(entry->value);
-    }
-  }
-  return NULL;
-}
-
 static void check_text(Check *check) {
   static const char signature[] = "\x89PNG";
   const bool picture = check->length > 4 && memcmp(check->text, signature, 4) == 0;
@@ -156,7 +139,7 @@ static void check_text(Check *check) {
     return;
   }
   bool grouped = false;
-  g_autofree char *kind = kind_of_text(&grouped, check);
+  g_autofree char *kind = sb_reader_kind(&grouped, check->text, check->length);
   if (g_strcmp0(kind, "study") == 0) {
     check_study(check);
   } else if (g_strcmp0(kind, "rubber") == 0) {

@@ -404,29 +404,39 @@ static SbDocument *parse_picture(const char *data, size_t length, const char *na
   return document;
 }
 
-SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
-  bool stream = strcmp(path, "-") == 0;
-  const char *name = stream ? "standard input" : path;
-  size_t length = 0;
-  bool picture = sb_output_ends_in(path, ".png");
-  size_t most = picture ? SB_PICTURE_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
-  char *text = stream ? sb_reader_load_stream(&length, STDIN_FILENO, name, most, issues)
-                      : sb_reader_load(&length, path, name, most, issues);
-  if (text == NULL) {
-    return NULL;
-  }
+// Name of a path in messages.
+static const char *shown_path(const char *path) {
+  return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+char *sb_document_load_text(size_t *length, const char *path, GPtrArray *issues) {
+  const size_t most =
+      sb_output_ends_in(path, ".png") ? SB_PICTURE_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
+  return strcmp(path, "-") == 0
+             ? sb_reader_load_stream(length, STDIN_FILENO, shown_path(path), most, issues)
+             : sb_reader_load(length, path, path, most, issues);
+}
+
+SbDocument *sb_document_read(const char *path, const char *text, size_t length, GPtrArray *issues) {
   static const char signature[] = "\x89PNG";
-  picture = picture || (length > 4 && memcmp(text, signature, 4) == 0);
+  if (sb_output_ends_in(path, ".png") || (length > 4 && memcmp(text, signature, 4) == 0)) {
+    return parse_picture(text, length, shown_path(path), issues);
+  }
+  const bool stream = strcmp(path, "-") == 0;
   g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
-  SbDocument *document = picture ? parse_picture(text, length, name, issues)
-                                 : sb_document_parse(text, length, name, directory, issues);
-  if (document != NULL && !picture && !stream) {
+  SbDocument *document = sb_document_parse(text, length, shown_path(path), directory, issues);
+  if (document != NULL && !stream) {
     document->path = g_strdup(path);
     sb_file_stamp_set(&document->disk, path, text, length);
     sb_document_refresh_title(document);
   }
-  g_free(text);
   return document;
+}
+
+SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
+  size_t length = 0;
+  g_autofree char *text = sb_document_load_text(&length, path, issues);
+  return text != NULL ? sb_document_read(path, text, length, issues) : NULL;
 }
 
 // ---- Asking ----

@@ -68,6 +68,13 @@ bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
 // values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 
+// Returns the content of the file `path` ("-": standard input) for sb_document_read(), *length
+// bytes and a terminating 0; freed by g_free(). NULL with one issue, as sb_reader_load().
+char *sb_document_load_text(size_t *length, const char *path, GPtrArray *issues);
+
+// As sb_document_load(), from the content of `path` that sb_document_load_text() returned.
+SbDocument *sb_document_read(const char *path, const char *text, size_t length, GPtrArray *issues);
+
 // As sb_document_load(), from the `length` bytes of a file. `name` is used as its path in messages;
 // `directory` is the folder in which the valve and other files are looked for (NULL: the current
 // one). The document has no path.

@@ -107,6 +107,10 @@ typedef struct {
 // settings (ends with NULL; NULL: none) to the scene. Returns NULL with at least one issue.
 SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues);
 
+// As sb_study_file_load(), from the content of `path` that sb_document_load_text() returned.
+SbStudyFile *sb_study_file_read(const char *path, const char *text, size_t length, char **settings,
+                                GPtrArray *issues);
+
 // As sb_study_file_load(), from the `length` bytes of a file. `name` is used as its path in
 // messages; the scene is looked for in `directory` (NULL: the current folder). If `scene` is not
 // NULL, it is used in place of the scene that the text names and is owned by the study, also after
