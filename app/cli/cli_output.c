@@ -141,6 +141,22 @@ void sb_cli_add_file_hint(const char *path, unsigned kinds, GPtrArray *issues) {
   issue->text = g_strconcat(text, hint, NULL);
 }
 
+static void print_notes(const GPtrArray *notes) {
+  for (guint i = 0; i < notes->len && !sb_cli_quiet(); i++) {
+    sb_cli_fail("note: %s", ((const SbIssue *)notes->pdata[i])->text);
+  }
+}
+
+// Prints all problems, or the notes of a study and of its scene.
+static SbStudyFile *tell_study(SbStudyFile *study, const GPtrArray *issues) {
+  sb_cli_issues(issues);
+  if (study != NULL) {
+    print_notes(sb_document_notes(study->scene));
+    print_notes(study->notes);
+  }
+  return study;
+}
+
 SbStudyFile *sb_cli_open_study(const char *path, char **settings) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_STUDY);
@@ -148,8 +164,7 @@ SbStudyFile *sb_cli_open_study(const char *path, char **settings) {
   if (study == NULL) {
     sb_cli_add_file_hint(path, SB_SHIPPED_FOR_STUDY, issues);
   }
-  sb_cli_issues(issues);
-  return study;
+  return tell_study(study, issues);
 }
 
 char *sb_cli_full_path(const char *operand, unsigned kinds) {
@@ -175,10 +190,8 @@ static SbDocument *compile(SbModel **model, SbDocument *document, char **setting
     sb_document_free(document);
     document = NULL;
   }
-  const GPtrArray *notes = document != NULL && !sb_cli_quiet() ? sb_document_notes(document) : NULL;
-  for (guint i = 0; notes != NULL && i < notes->len; i++) {
-    g_autofree char *note = g_strconcat("note: ", notes->pdata[i], NULL);
-    (void)sb_cli_fail("%s", note);
+  if (document != NULL) {
+    print_notes(sb_document_notes(document));
   }
   return document;
 }
@@ -209,7 +222,7 @@ SbDocument *sb_cli_open_either(SbStudyFile **study, SbModel **model, const char 
   } else {
     *study = sb_study_file_read(file, text, length, settings, issues);
   }
-  sb_cli_issues(issues);
+  (void)tell_study(*study, issues);
   return NULL;
 }
 

@@ -36,6 +36,12 @@ typedef struct {
 
 // ---- Kinds ----
 
+static void take_notes(Check *check, const GPtrArray *notes) {
+  for (guint i = 0; i < notes->len; i++) {
+    sb_issues_add_copy(check->issues[SEVERITY_NOTE], notes->pdata[i]);
+  }
+}
+
 static void check_document(Check *check) {
   GPtrArray *errors = check->issues[SEVERITY_ERROR];
   check->document =
@@ -53,16 +59,17 @@ static void check_document(Check *check) {
       (void)sb_document_check_cases(check->document, errors);
     }
   }
-  for (guint i = 0; i < sb_document_notes(check->document)->len; i++) {
-    sb_issues_add(check->issues[SEVERITY_NOTE], NULL, 0, NULL, NULL, "%s",
-                  (const char *)sb_document_notes(check->document)->pdata[i]);
-  }
+  take_notes(check, sb_document_notes(check->document));
 }
 
 static void check_study(Check *check) {
   check->kind = "study";
   check->study = sb_study_file_parse(check->text, check->length, check->shown, check->directory,
                                      check->settings, NULL, check->issues[SEVERITY_ERROR]);
+  if (check->study != NULL) {
+    take_notes(check, sb_document_notes(check->study->scene));
+    take_notes(check, check->study->notes);
+  }
   if (check->study != NULL && check->study->data->len > 0) {
     sb_calibrate_check(check->study, check->issues[SEVERITY_ERROR]);
   }

@@ -20,8 +20,8 @@ SbDocument *sb_document_new(void) {
   document->entries = sb_reader_scan(document->text, strlen(document->text), "", none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   g_array_set_clear_func(document->edits, sb_document_clear_edit);
-  document->notes = g_ptr_array_new_with_free_func(g_free);
-  document->all_notes = g_ptr_array_new_with_free_func(g_free);
+  document->notes = sb_issues_new();
+  document->all_notes = sb_issues_new();
   document->faults = sb_issues_new();
   document->cases = sb_document_cases_new();
   document->pins = sb_document_pins_new();
@@ -175,8 +175,8 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
         g_error_free(error);
       } else if (sb_params_set(params, (SbParamId)id, value, &report) != SB_OK) {
         sb_issues_add(issues, shown, entry->line, key, NULL, "%s", report.text);
-      } else if (sb_hardness_applies((SbParamId)id)) {
-        sb_document_note_hardness(document, key, entry->value);
+      } else {
+        sb_hardness_note(document->notes, shown, entry->line, key, (SbParamId)id, entry->value);
       }
     }
   }
@@ -306,17 +306,10 @@ void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *
     g_autofree char *stays = sb_param_format((SbParamId)id, given->value[id]);
     g_autofree char *first = sb_param_format(giver, before);
     g_autofree char *second = sb_param_format(giver, after);
-    g_ptr_array_add(notes, g_strdup_printf("%s stays at the %s of the %s while %s changes from "
-                                           "%s to %s; set it too if the drawing changes both",
-                                           sb_param((SbParamId)id)->key, stays, file,
-                                           sb_param(giver)->key, first, second));
-  }
-}
-
-void sb_document_note_hardness(SbDocument *document, const char *key, const char *text) {
-  g_autofree char *note = sb_hardness_note(text);
-  if (note != NULL) {
-    g_ptr_array_add(document->notes, g_strdup_printf("%s: %s", key, note));
+    sb_issues_add(notes, NULL, 0, sb_param((SbParamId)id)->key, NULL,
+                  "%s stays at the %s of the %s while %s changes from %s to %s; set it too if the "
+                  "drawing changes both",
+                  sb_param((SbParamId)id)->key, stays, file, sb_param(giver)->key, first, second);
   }
 }
 
@@ -324,7 +317,7 @@ void sb_document_note_hardness(SbDocument *document, const char *key, const char
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown) {
   g_autofree char *note = sb_document_shape_note(document, id);
   if (note != NULL) {
-    g_ptr_array_add(document->notes, g_strdup_printf("%s: %s", shown, note));
+    sb_issues_add(document->notes, shown, 0, sb_param(id)->key, NULL, "%s: %s", shown, note);
   }
 }
 
@@ -454,8 +447,9 @@ const GPtrArray *sb_document_notes(const SbDocument *document) {
   GPtrArray *all = document->all_notes;
   g_ptr_array_set_size(all, 0);
   for (guint i = 0; i < document->notes->len; i++) {
-    g_ptr_array_add(all, g_strdup(document->notes->pdata[i]));
+    sb_issues_add_copy(all, document->notes->pdata[i]);
   }
+  sb_document_note_cases(document, all);
   const SbParams now = sb_document_params(document);
   for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
     if (document->own.given[giver]) {

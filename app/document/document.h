@@ -99,9 +99,10 @@ const char *sb_document_path(const SbDocument *document);
 // Returns the path of a scene's valve file; NULL: a valve. Borrowed until the next save.
 const char *sb_document_valve_path(const SbDocument *document);
 
-// Returns sentences (const char *) that are no errors: values in force that differ from a part's
-// shape, the modulus that follows from a hardness, and sizes that stay although a drawing would
-// change them with another one. Borrowed until the next call for this document.
+// Returns notes (of SbIssue, whose text names the key too) that are no errors: values in force that
+// differ from a part's shape, the modulus that follows from a hardness, and sizes that stay
+// although a drawing would change them with another one. Borrowed until the next call for this
+// document.
 const GPtrArray *sb_document_notes(const SbDocument *document);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of

@@ -253,8 +253,8 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
   } else {
     good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
     sb_document_note_override(document, (SbParamId)id, "--set");
-    if (good && sb_hardness_applies((SbParamId)id)) {
-      sb_document_note_hardness(document, key, text);
+    if (good) {
+      sb_hardness_note(document->notes, "--set", 0, key, (SbParamId)id, text);
     }
   }
   return good;

@@ -82,6 +82,7 @@ void sb_study_file_free(SbStudyFile *study) {
   sb_document_free(study->scene);
   sb_model_destroy(study->base);
   g_clear_pointer(&study->data, g_ptr_array_unref);
+  g_ptr_array_unref(study->notes);
   g_free(study->base_sha256);
   g_free(study->root);
   g_free(study->path);

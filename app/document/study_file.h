@@ -100,6 +100,7 @@ typedef struct {
   SbLeakageTest leakage; // of [leakage_test]
   size_t leakage_tests;  // number of simulated tests; 0: none
   GPtrArray *data;       // of SbData
+  GPtrArray *notes;      // of SbIssue: the moduli that follow from hardnesses in its own lines
   bool borrowed;         // all members but the arrays belong to another study
 } SbStudyFile;
 

@@ -218,12 +218,63 @@ static void test_kept(void) {
   }
 }
 
+// Checks that `check` notes the modulus of a hardness at this place of a file.
+static void has_hardness(const char *file, const char *group, const char *key, const char *text) {
+  CliResult check = CLI("check", file, "--json", "-");
+  JsonNode *root = cli_parse(check.out);
+  JsonArray *issues = json_node_get_array(cli_at(root, "files.0.issues"));
+  bool found = false;
+  for (guint i = 0; i < json_array_get_length(issues); i++) {
+    JsonObject *issue = json_array_get_object_element(issues, i);
+    found = found || (g_strcmp0(json_object_get_string_member(issue, "severity"), "note") == 0 &&
+                      g_strcmp0(json_object_get_string_member(issue, "group"), group) == 0 &&
+                      g_strcmp0(json_object_get_string_member(issue, "key"), key) == 0 &&
+                      json_object_get_int_member(issue, "line") > 0 &&
+                      strstr(json_object_get_string_member(issue, "text"), text) != NULL);
+  }
+  if (!found) {
+    g_error("%s: no note on [%s] %s: %s", file, group, key, check.out);
+  }
+  json_node_unref(root);
+  cli_clear(&check);
+}
+
+// A hardness states its modulus wherever a value may be written.
+static void test_hardness(void) {
+  write_scene("[seal]\nmodulus = 70 IRHD\n[cases]\nsoft = seal.modulus = 40 Shore A\n"
+              "[pins]\nold = seal.modulus = 55 Shore A\n");
+  has_hardness(path, "seal", "modulus", "70 IRHD is a modulus of 5.38 MPa");
+  has_hardness(path, "cases", "soft", "40 Shore A is a modulus of 1.69 MPa");
+  has_hardness(path, "pins", "old", "55 Shore A is a modulus of 2.97 MPa");
+  g_autofree char *study = g_build_filename(cli.folder, "hardness.study", NULL);
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\nseal.modulus = "
+                      "normal 60 Shore A, "
+                      "2 Shore A within 50 Shore A .. 75 IRHD\n[study]\nsamples = 2\n"
+                      "figures = seals.outer.modulus_Pa\n",
+                      path);
+  g_assert_true(g_file_set_contents(study, text, -1, NULL));
+  static const char *const moduli[] = {"60 Shore A is a modulus of 3.61 MPa", "50 Shore A is a",
+                                       "75 IRHD is a modulus of"};
+  CliResult run = CLI("study", study, "--csv", "-");
+  for (size_t i = 0; i < G_N_ELEMENTS(moduli); i++) {
+    has_hardness(study, "vary", "seal.modulus", moduli[i]);
+    g_assert_nonnull(strstr(run.err, moduli[i]));
+  }
+  g_assert_nonnull(strstr(run.err, "note: cases.soft: 40 Shore A"));
+  cli_clear(&run);
+  g_autofree char *store = g_build_filename(cli.folder, "hardness.store", NULL);
+  g_remove(store);
+  g_remove(study);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   path = g_build_filename(cli.folder, "cases.scene", NULL);
   g_test_add_func("/cases/worst", test_worst);
   g_test_add_func("/cases/kept", test_kept);
+  g_test_add_func("/cases/hardness", test_hardness);
   g_test_add_func("/cases/shown", test_shown);
   g_test_add_func("/cases/failure", test_failure);
   g_test_add_func("/cases/refused", test_refused);

@@ -210,8 +210,9 @@ static void test_override(void) {
   const GPtrArray *notes = sb_document_notes(document);
   // The drawn stem and mouth stay while the bore changes: two more notes.
   g_assert_cmpuint(notes->len, ==, 4);
-  g_assert_nonnull(strstr(notes->pdata[0], "wide.scene: bore.diameter = 6.1 mm applies; the "
-                                           "bore of [part.housing] has 6 mm"));
+  g_assert_nonnull(strstr(((const SbIssue *)notes->pdata[0])->text,
+                          "wide.scene: bore.diameter = 6.1 mm applies; the "
+                          "bore of [part.housing] has 6 mm"));
   g_assert_null(sb_document_shape_source(document, SB_P_BORE_DIAMETER));
   g_autoptr(SbModel) model = NULL;
   g_assert_true(sb_document_compile(document, &model, issues));
