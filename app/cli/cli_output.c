@@ -147,11 +147,18 @@ static void print_notes(const GPtrArray *notes) {
   }
 }
 
+static void print_document_notes(const SbDocument *document) {
+  g_autoptr(GPtrArray) kept = sb_issues_new();
+  sb_document_kept(document, kept);
+  print_notes(sb_document_notes(document));
+  print_notes(kept);
+}
+
 // Prints all problems, or the notes of a study and of its scene.
 static SbStudyFile *tell_study(SbStudyFile *study, const GPtrArray *issues) {
   sb_cli_issues(issues);
   if (study != NULL) {
-    print_notes(sb_document_notes(study->scene));
+    print_document_notes(study->scene);
     print_notes(study->notes);
   }
   return study;
@@ -191,7 +198,7 @@ static SbDocument *compile(SbModel **model, SbDocument *document, char **setting
     document = NULL;
   }
   if (document != NULL) {
-    print_notes(sb_document_notes(document));
+    print_document_notes(document);
   }
   return document;
 }

@@ -42,6 +42,11 @@ static void take_notes(Check *check, const GPtrArray *notes) {
   }
 }
 
+static void take_document_notes(Check *check, const SbDocument *document) {
+  take_notes(check, sb_document_notes(document));
+  sb_document_kept(document, check->issues[SEVERITY_NOTE]);
+}
+
 static void check_document(Check *check) {
   GPtrArray *errors = check->issues[SEVERITY_ERROR];
   check->document =
@@ -59,7 +64,7 @@ static void check_document(Check *check) {
       (void)sb_document_check_cases(check->document, errors);
     }
   }
-  take_notes(check, sb_document_notes(check->document));
+  take_document_notes(check, check->document);
 }
 
 static void check_study(Check *check) {
@@ -67,7 +72,7 @@ static void check_study(Check *check) {
   check->study = sb_study_file_parse(check->text, check->length, check->shown, check->directory,
                                      check->settings, NULL, check->issues[SEVERITY_ERROR]);
   if (check->study != NULL) {
-    take_notes(check, sb_document_notes(check->study->scene));
+    take_document_notes(check, check->study->scene);
     take_notes(check, check->study->notes);
   }
   if (check->study != NULL && check->study->data->len > 0) {

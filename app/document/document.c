@@ -294,25 +294,6 @@ void sb_document_refresh_title(SbDocument *document) {
   }
 }
 
-void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
-                            const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
-                            const SbParams *now) {
-  const int kind = (int)sb_params_get(now, SB_P_VALVE_KIND);
-  const double after = sb_params_get(now, giver);
-  for (int id = 0; id < SB_PARAM_COUNT && after != before; id++) {
-    if (!sb_param_keeps((SbParamId)id, giver, kind) || !given->given[id] || set[id]) {
-      continue;
-    }
-    g_autofree char *stays = sb_param_format((SbParamId)id, given->value[id]);
-    g_autofree char *first = sb_param_format(giver, before);
-    g_autofree char *second = sb_param_format(giver, after);
-    sb_issues_add(notes, NULL, 0, sb_param((SbParamId)id)->key, NULL,
-                  "%s stays at the %s of the %s while %s changes from %s to %s; set it too if the "
-                  "drawing changes both",
-                  sb_param((SbParamId)id)->key, stays, file, sb_param(giver)->key, first, second);
-  }
-}
-
 // Adds the note on a value in force that is not what a shape under it makes.
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown) {
   g_autofree char *note = sb_document_shape_note(document, id);
@@ -443,21 +424,12 @@ const SbData *sb_document_data(const SbDocument *document, size_t index) {
 }
 
 const GPtrArray *sb_document_notes(const SbDocument *document) {
-  // Those of sizes that stay depend on the values in force now.
   GPtrArray *all = document->all_notes;
   g_ptr_array_set_size(all, 0);
   for (guint i = 0; i < document->notes->len; i++) {
     sb_issues_add_copy(all, document->notes->pdata[i]);
   }
   sb_document_note_cases(document, all);
-  const SbParams now = sb_document_params(document);
-  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
-    if (document->own.given[giver]) {
-      sb_document_note_sizes(all, "valve's file", &document->base, document->own.given,
-                             (SbParamId)giver, sb_params_get(&document->base, (SbParamId)giver),
-                             &now);
-    }
-  }
   return all;
 }
 

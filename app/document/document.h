@@ -100,10 +100,13 @@ const char *sb_document_path(const SbDocument *document);
 const char *sb_document_valve_path(const SbDocument *document);
 
 // Returns notes (of SbIssue, whose text names the key too) that are no errors: values in force that
-// differ from a part's shape, the modulus that follows from a hardness, and sizes that stay
-// although a drawing would change them with another one. Borrowed until the next call for this
-// document.
+// differ from a part's shape, and the modulus that follows from a hardness. Borrowed until the next
+// call for this document.
 const GPtrArray *sb_document_notes(const SbDocument *document);
+
+// Appends a note to `notes` (of SbIssue) for each size that stays although a drawing would change
+// it with a size that has changed. A run has the same text as its warning "size-kept".
+void sb_document_kept(const SbDocument *document, GPtrArray *notes);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of
 // [part.housing]": there it is edited. NULL: no shape gives it.

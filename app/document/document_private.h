@@ -94,6 +94,7 @@ struct SbDocument {
   SbParams base;                      // values that the valve gives (scenes)
   SbParams own;                       // values that the document itself gives
   SbParams saved;                     // values that its file gives
+  bool stated[SB_PARAM_COUNT];        // values of --set
   SbLimits limits;                    // of the valve, replaced by the own ones
   GPtrArray *cases;                   // of SbCase, of the valve, replaced by the own ones
   GPtrArray *pins;                    // only the own ones (document_pins.c)
@@ -313,13 +314,6 @@ bool sb_document_data_differs(const SbDocument *document);
 void sb_document_data_saved(SbDocument *document);
 
 // ---- Notes ----
-
-// Appends a note to `notes` (of SbIssue) for each size that stays at the value of `given` while
-// `giver`, with which a drawing would change it, changes from `before` [SI] to its value in `now`.
-// `file` names the file of the given values for the user. Sizes in `set` get no note.
-void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
-                            const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
-                            const SbParams *now);
 
 // Appends a note to `notes` (of SbIssue) for each hardness in [cases] and in the file's [pins].
 void sb_document_note_cases(const SbDocument *document, GPtrArray *notes);

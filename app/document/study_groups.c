@@ -443,6 +443,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
   if (issues->len > before) {
     return NULL;
   }
+  sb_study_note_kept(&reader);
   // Probabilities of limits need no other figure.
   const bool all =
       study->figures->len == 0 && study->method != SB_METHOD_RELIABILITY && !study->design.asked;
