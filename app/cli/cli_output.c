@@ -54,11 +54,10 @@ int sb_cli_status(SbStatus status, const SbReport *report) {
     return SB_EXIT_DONE;
   }
   const char *text = report->text[0] != '\0' ? report->text : sb_status_text(status);
-  const int id = sb_input_parameter(report->input);
-  if (id >= 0) {
-    g_autofree char *range = sb_param_range((SbParamId)id);
+  if (sb_input_parameter(report->input) >= 0) {
+    // The text states what would be valid: the catalogue's range holds for other values, too.
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    sb_issues_add(issues, NULL, 0, sb_input_key(report->input), range, "%s", text);
+    sb_issues_add(issues, NULL, 0, sb_input_key(report->input), NULL, "%s", text);
     sb_cli_issues(issues);
   } else {
     (void)sb_cli_fail("%s", text);

@@ -135,7 +135,7 @@ typedef enum {
   SB_VERDICT_RETURNS, // the stem returns by itself, with the required force
   SB_VERDICT_DOSES,   // doses are within limits
   SB_VERDICT_LEAK,    // leakage is within limits
-  SB_VERDICT_FITS,    // sizes of seals and glands are within limits
+  SB_VERDICT_FITS,    // sizes, contacts, films, times are within limits
   SB_VERDICT_COUNT,
   SB_VERDICT_NONE = SB_VERDICT_COUNT // SbFigure.verdict: no limit may be set on this figure
 } SbVerdictKind;
