@@ -10,7 +10,7 @@ typedef struct {
   char *output, *measured, *jobs;
   char **settings;
   int threads;
-} Options;
+} ReportOptions;
 
 static bool on_page(void *data, int done, int count) {
   sb_progress_update(data, (double)done / count);
@@ -39,7 +39,7 @@ static int write_pages(const char *output, const SbReportScene *scene, const SbR
 // ---- A scene ----
 
 static int report_run(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
-                      const Options *options) {
+                      const ReportOptions *options) {
   SbCaseVerdict verdict[SB_VERDICT_COUNT];
   const SbStatus judged = sb_cli_judge(verdict, run, document);
   g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
@@ -69,7 +69,8 @@ static int report_run(const SbRun *run, const SbDocument *document, const SbMeas
                                    : SB_EXIT_NOT_CONVERGED;
 }
 
-static int report_scene(const SbDocument *document, const SbModel *model, const Options *options) {
+static int report_scene(const SbDocument *document, const SbModel *model,
+                        const ReportOptions *options) {
   int code = sb_cli_check_outputs(NULL, NULL, options->output), read = SB_EXIT_DONE;
   if (code == SB_EXIT_DONE && !sb_cli_has_memory(model)) {
     code = SB_EXIT_IO;
@@ -104,10 +105,10 @@ static int answered(void *data, const SbCliAnswers *of) {
     return SB_EXIT_INTERRUPTED;
   }
   const SbReportStudy study = {of->study, of->value, of->drawn, of->answers};
-  return write_pages(((const Options *)data)->output, NULL, &study);
+  return write_pages(((const ReportOptions *)data)->output, NULL, &study);
 }
 
-static int report_study(const SbStudyFile *study, const char *path, const Options *options) {
+static int report_study(const SbStudyFile *study, const char *path, const ReportOptions *options) {
   if (options->measured != NULL) {
     return sb_cli_fail("--measured: is for a scene, not for a study");
   }
@@ -128,7 +129,7 @@ static int report_study(const SbStudyFile *study, const char *path, const Option
 }
 
 // The kind of the file decides, not its name: a pipe or standard input has no ending.
-static int report(const char *path, const Options *options) {
+static int report(const char *path, const ReportOptions *options) {
   SbModel *model = NULL;
   g_autoptr(SbStudyFile) study = NULL;
   g_autoptr(SbDocument) document = sb_cli_open_either(&study, &model, path, options->settings);
@@ -140,7 +141,7 @@ static int report(const char *path, const Options *options) {
 }
 
 int sb_command_report(int argc, char **argv) {
-  Options options = {0};
+  ReportOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "The pages, a .pdf or -",
        "OUT.pdf"},

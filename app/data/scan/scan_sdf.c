@@ -21,7 +21,7 @@ static const struct {
 
 // Skips the characters `skipped`, returns a copy of the text from there to the first of the
 // characters `ends`, and moves to that. Empty at the end.
-static char *take_text(SbScanBytes *bytes, const char *skipped, const char *ends) {
+static char *take_sdf_text(SbScanBytes *bytes, const char *skipped, const char *ends) {
   while (bytes->at < bytes->end && *bytes->at != '\0' && strchr(skipped, *bytes->at) != NULL) {
     bytes->at++;
   }
@@ -35,9 +35,9 @@ static char *take_text(SbScanBytes *bytes, const char *skipped, const char *ends
 // Reads the lines "Key = value" up to the one that is "*".
 static void read_keys(double *value, SbScanBytes *bytes) {
   for (bool more = true; more;) {
-    g_autofree char *key = take_text(bytes, BLANKS "=", BLANKS "=");
+    g_autofree char *key = take_sdf_text(bytes, BLANKS "=", BLANKS "=");
     more = *key != '\0' && *key != '*';
-    g_autofree char *text = more ? take_text(bytes, " \t=", "\r\n") : NULL;
+    g_autofree char *text = more ? take_sdf_text(bytes, " \t=", "\r\n") : NULL;
     for (int k = 0; k < KEYS && more; k++) {
       if (g_ascii_strcasecmp(key, keys[k].name) == 0) {
         (void)sb_text_table_number_at(&value[k], text, '.');
@@ -57,7 +57,7 @@ static bool read_text(SbScan *out, SbScanBytes bytes, const double *value, GErro
   }
   for (guint64 i = 0; i < points; i++) {
     double number = NAN;
-    g_autofree char *word = take_text(&bytes, BLANKS, BLANKS);
+    g_autofree char *word = take_sdf_text(&bytes, BLANKS, BLANKS);
     if (*word == '\0' || *word == '*') {
       return sb_app_error_input(
           error, "is cut short: %" G_GUINT64_FORMAT " points of %" G_GUINT64_FORMAT, i, points);

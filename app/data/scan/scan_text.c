@@ -52,7 +52,7 @@ static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDi
 
 // Returns the entry of the first of the patterns (separated by |, * for any letters) that the
 // header has; an empty one without.
-static const SbScanEntry *find(const SbScanText *text, const char *patterns) {
+static const SbScanEntry *find_entry(const SbScanText *text, const char *patterns) {
   static const SbScanEntry none = {(char *)"", (char *)"", NAN, 0};
   g_auto(GStrv) each = g_strsplit(patterns, "|", -1);
   for (char **pattern = each; *pattern != NULL; pattern++) {
@@ -86,30 +86,32 @@ static double length_of(const SbScanEntry *entry, bool *bare) {
 static Header header_of(const SbScanText *text) {
 #define ANY_STEP "|pixelsize|spacing|schrittweite|pas|passo"
   Header h = {0};
-  h.columns = find(text, "ncols|xpixels|columns|pixelsx|spalten|colonnes|colonne")->number;
-  h.rows = find(text, "nrows|ypixels|rows|lines|pixelsy|zeilen|lignes|righe")->number;
-  h.step_x = length_of(find(text, "cellsize|dx|xspacing|xstep|xscale" ANY_STEP), &h.bare);
-  h.step_y = length_of(find(text, "cellsize|dy|yspacing|ystep|yscale" ANY_STEP), &h.bare);
-  h.width = length_of(find(text, "xlength|width|xsize|xreal|xrange|breite|largeur|larghezza|anch*"),
-                      &h.bare);
+  h.columns = find_entry(text, "ncols|xpixels|columns|pixelsx|spalten|colonnes|colonne")->number;
+  h.rows = find_entry(text, "nrows|ypixels|rows|lines|pixelsy|zeilen|lignes|righe")->number;
+  h.step_x = length_of(find_entry(text, "cellsize|dx|xspacing|xstep|xscale" ANY_STEP), &h.bare);
+  h.step_y = length_of(find_entry(text, "cellsize|dy|yspacing|ystep|yscale" ANY_STEP), &h.bare);
+  h.width = length_of(
+      find_entry(text, "xlength|width|xsize|xreal|xrange|breite|largeur|larghezza|anch*"), &h.bare);
   h.height = length_of(
-      find(text, "ylength|height|ysize|yreal|yrange|höhe|hauteur|altezza|altura|alto"), &h.bare);
-  h.missing = find(text, "nodatavalue|nodata|fehlwert")->number;
+      find_entry(text, "ylength|height|ysize|yreal|yrange|höhe|hauteur|altezza|altura|alto"),
+      &h.bare);
+  h.missing = find_entry(text, "nodatavalue|nodata|fehlwert")->number;
   h.vertical = sb_scan_length(
-      find(text, "zunit*|valueunit*|heightunit*|unitz|*einheit*wert*|wert*einheit*|*unit*val*|"
+      find_entry(text,
+                 "zunit*|valueunit*|heightunit*|unitz|*einheit*wert*|wert*einheit*|*unit*val*|"
                  "*unid*valor*|einheitz|zeinheit|unitéz|unitàz|unidadz")
           ->value);
-  h.lateral = sb_scan_length(find(text, "xunit*|lateralunit*|xyunit*|unitxy|unitx|einheitx*|"
-                                        "xeinheit|unitéx*|unitàx*")
+  h.lateral = sb_scan_length(find_entry(text, "xunit*|lateralunit*|xyunit*|unitxy|unitx|einheitx*|"
+                                              "xeinheit|unitéx*|unitàx*")
                                  ->value);
   // A factor of the written heights, with its own unit or in the unit of heights.
-  const SbScanEntry *factor = find(
+  const SbScanEntry *factor = find_entry(
       text, "zfactor|zscale|zscaling|heightfactor|heightscale|factor*|scalefactor|*skalierung*|"
             "höhenfaktor|zfaktor|facteur*|fattore*|*multipl*|bit2nm|*faktor");
   h.factor = factor->number;
   h.vertical = factor->unit > 0 && isfinite(h.factor) ? factor->unit : h.vertical;
   // SPIP's lengths are in nanometres; so are its heights times Bit2nm where no unit is given.
-  if (g_ascii_strcasecmp(find(text, "fileformat")->value, "ASCII") == 0) {
+  if (g_ascii_strcasecmp(find_entry(text, "fileformat")->value, "ASCII") == 0) {
     const bool bits = strcmp(factor->key, "bit2nm") == 0;
     h.lateral = h.lateral > 0 ? h.lateral : 1e-9;
     h.factor = bits && h.vertical > 0 ? NAN : h.factor;
@@ -171,10 +173,11 @@ static bool take_matrix(SbScan *out, const SbScanText *text, const Header *h, GE
   return true;
 }
 
-static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
-                      GError **error) {
+static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
+                            GError **error) {
   Header h = header_of(text);
-  const SbScanEntry *title = find(text, "channel|title|kanal|canal|canale|titel|titre|titolo");
+  const SbScanEntry *title =
+      find_entry(text, "channel|title|kanal|canal|canale|titel|titre|titolo");
   const gsize columns = text->matrix.columns;
   const bool sized =
       isfinite(h.columns) ||
@@ -240,7 +243,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
   for (char **line = table->header; *line != NULL && entries->len < ENTRIES_MAX; line++) {
     take_entry(entries, *line, &table->dialect);
   }
-  const bool good = read_text(out, &text, choices, error);
+  const bool good = read_entry_text(out, &text, choices, error);
   g_array_unref(text.matrix.value);
   return good;
 }
