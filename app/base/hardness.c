@@ -96,21 +96,22 @@ bool sb_hardness_difference(double *out, double at, const char *text, GError **e
   return true;
 }
 
-char *sb_hardness_note(const char *text) {
+void sb_hardness_note(GPtrArray *notes, const char *shown, int line, const char *key, SbParamId id,
+                      const char *text) {
   double hardness = 0, modulus = 0;
-  const Scale *scale = read_hardness(&hardness, text);
+  const Scale *scale = sb_hardness_applies(id) ? read_hardness(&hardness, text) : NULL;
   if (scale == NULL || !sb_hardness_parse(&modulus, text, NULL)) {
-    return NULL;
+    return;
   }
   // 3 points either side.
   const double spread =
       (scale->modulus(hardness + 3) - scale->modulus(hardness - 3)) / (2 * modulus);
-  char shown[SB_NUMBER_SIZE], points[SB_NUMBER_SIZE], share[SB_NUMBER_SIZE];
-  sb_number_round(shown, 1e-6 * modulus, 3);
+  char value[SB_NUMBER_SIZE], points[SB_NUMBER_SIZE], share[SB_NUMBER_SIZE];
+  sb_number_round(value, 1e-6 * modulus, 3);
   sb_number_round(points, hardness, 6);
   sb_number_round(share, 100 * spread, 2);
-  return g_strdup_printf(
-      "%s %s is a modulus of %s MPa (%s); a reading that is 3 points off changes "
-      "it by %s %%, and filled rubbers differ from the relation by up to 20 %%",
-      points, scale->name, shown, scale->relation, share);
+  sb_issues_add(notes, shown, line, key, NULL,
+                "%s: %s %s is a modulus of %s MPa (%s); a reading that is 3 points off changes "
+                "it by %s %%, and filled rubbers differ from the relation by up to 20 %%",
+                key, points, scale->name, value, scale->relation, share);
 }

@@ -11,6 +11,7 @@
 // of E at 60; filled rubbers differ from the relations by up to about 20 %.
 #pragma once
 
+#include "app/base/issue.h"
 #include "engine/valve/model/params.h"
 
 #include <glib.h>
@@ -28,6 +29,8 @@ bool sb_hardness_parse(double *modulus, const char *text, GError **error);
 // has no unit of hardness; false with SB_APP_ERROR_INPUT if the relation does not hold at `at`.
 bool sb_hardness_difference(double *out, double at, const char *text, GError **error);
 
-// Returns a sentence with the modulus of such a text, the relation and its scatter; NULL for any
-// other text.
-char *sb_hardness_note(const char *text);
+// Appends a note to `notes` (of SbIssue) with the modulus of such a text, the relation and its
+// scatter. Does nothing for any other text, or if `id` is not such a modulus. `shown`, `line` and
+// `key` are the file, line and key of the value (app/base/issue.h).
+void sb_hardness_note(GPtrArray *notes, const char *shown, int line, const char *key, SbParamId id,
+                      const char *text);

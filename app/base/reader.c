@@ -230,3 +230,18 @@ GPtrArray *sb_reader_scan(const char *text, size_t length, const char *shown, GP
   g_free(scan.group);
   return entries;
 }
+
+char *sb_reader_kind(bool *grouped, const char *text, size_t length) {
+  *grouped = g_strstr_len(text, (gssize)length, "[sealbench]") != NULL;
+  g_autoptr(GPtrArray) ignored = sb_issues_new();
+  g_autoptr(GPtrArray) entries = sb_reader_scan(text, length, "", ignored);
+  for (guint i = 0; i < entries->len; i++) {
+    const SbEntry *entry = entries->pdata[i];
+    *grouped = *grouped || entry->group != NULL;
+    if (entry->name != NULL && strcmp(entry->group, "sealbench") == 0 &&
+        strcmp(entry->name, "kind") == 0) {
+      return g_strdup(entry->value);
+    }
+  }
+  return NULL;
+}

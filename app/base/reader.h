@@ -41,6 +41,10 @@ char *sb_reader_load_file(size_t *length, const char *path, const char *shown, s
 char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,
                             GPtrArray *issues);
 
+// Returns the value of [sealbench] kind of the `length` bytes of a text, such as "study"; NULL if
+// the text has none. *grouped: whether the text has any group of a key file. Freed by g_free().
+char *sb_reader_kind(bool *grouped, const char *text, size_t length);
+
 // Returns all groups and keys of the `length` bytes of a text, in their order, as a list of SbEntry
 // that owns its elements; freed by g_ptr_array_unref(), never NULL. Comments and empty lines are
 // skipped. Other lines and duplicate keys and groups become issues in which `shown` names the file;

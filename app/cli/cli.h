@@ -114,6 +114,12 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings);
 // Prints all problems; returns NULL if there is any. Freed by sb_study_file_free().
 SbStudyFile *sb_cli_open_study(const char *path, char **settings);
 
+// Opens a study as sb_cli_open_study(), or a valve or scene as sb_cli_open(), by the kind that the
+// file itself states. One of *study and the returned document is not NULL unless there is a
+// problem.
+SbDocument *sb_cli_open_either(SbStudyFile **study, SbModel **model, const char *path,
+                               char **settings);
+
 // Appends a hint to the only issue of an operand that does not exist: the most similar name among
 // the shipped files of `kinds` (bits of SbShippedKind, app/document/shipped.h) and the files in the
 // operand's folder. Does nothing if there is another number of issues.

@@ -4,6 +4,7 @@
 #include "app/base/figure_text.h"
 #include "app/base/nearest.h"
 #include "app/base/output.h"
+#include "app/base/reader.h"
 #include "app/document/shipped.h"
 #include "app/export/run_tables.h"
 #include "app/lazy/lazy.h"
@@ -53,11 +54,10 @@ int sb_cli_status(SbStatus status, const SbReport *report) {
     return SB_EXIT_DONE;
   }
   const char *text = report->text[0] != '\0' ? report->text : sb_status_text(status);
-  const int id = sb_input_parameter(report->input);
-  if (id >= 0) {
-    g_autofree char *range = sb_param_range((SbParamId)id);
+  if (sb_input_parameter(report->input) >= 0) {
+    // The text states what would be valid: the catalogue's range holds for other values, too.
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    sb_issues_add(issues, NULL, 0, sb_input_key(report->input), range, "%s", text);
+    sb_issues_add(issues, NULL, 0, sb_input_key(report->input), NULL, "%s", text);
     sb_cli_issues(issues);
   } else {
     (void)sb_cli_fail("%s", text);
@@ -140,6 +140,29 @@ void sb_cli_add_file_hint(const char *path, unsigned kinds, GPtrArray *issues) {
   issue->text = g_strconcat(text, hint, NULL);
 }
 
+static void print_notes(const GPtrArray *notes) {
+  for (guint i = 0; i < notes->len && !sb_cli_quiet(); i++) {
+    sb_cli_fail("note: %s", ((const SbIssue *)notes->pdata[i])->text);
+  }
+}
+
+static void print_document_notes(const SbDocument *document) {
+  g_autoptr(GPtrArray) kept = sb_issues_new();
+  sb_document_kept(document, kept);
+  print_notes(sb_document_notes(document));
+  print_notes(kept);
+}
+
+// Prints all problems, or the notes of a study and of its scene.
+static SbStudyFile *tell_study(SbStudyFile *study, const GPtrArray *issues) {
+  sb_cli_issues(issues);
+  if (study != NULL) {
+    print_document_notes(study->scene);
+    print_notes(study->notes);
+  }
+  return study;
+}
+
 SbStudyFile *sb_cli_open_study(const char *path, char **settings) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_STUDY);
@@ -147,8 +170,7 @@ SbStudyFile *sb_cli_open_study(const char *path, char **settings) {
   if (study == NULL) {
     sb_cli_add_file_hint(path, SB_SHIPPED_FOR_STUDY, issues);
   }
-  sb_cli_issues(issues);
-  return study;
+  return tell_study(study, issues);
 }
 
 char *sb_cli_full_path(const char *operand, unsigned kinds) {
@@ -156,13 +178,10 @@ char *sb_cli_full_path(const char *operand, unsigned kinds) {
   return strcmp(file, "-") == 0 ? g_strdup(file) : g_canonicalize_filename(file, NULL);
 }
 
-SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
-  g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
-  SbDocument *document = sb_document_load(file, issues);
-  if (document == NULL) {
-    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
-  }
+// Applies the settings, compiles the document and prints all problems and notes. Frees it and
+// returns NULL if there is any problem.
+static SbDocument *compile(SbModel **model, SbDocument *document, char **settings,
+                           GPtrArray *issues) {
   if (document != NULL) {
     sb_document_set_options(document, settings, issues);
   }
@@ -177,12 +196,40 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
     sb_document_free(document);
     document = NULL;
   }
-  const GPtrArray *notes = document != NULL && !sb_cli_quiet() ? sb_document_notes(document) : NULL;
-  for (guint i = 0; notes != NULL && i < notes->len; i++) {
-    g_autofree char *note = g_strconcat("note: ", notes->pdata[i], NULL);
-    (void)sb_cli_fail("%s", note);
+  if (document != NULL) {
+    print_document_notes(document);
   }
   return document;
+}
+
+SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
+  SbDocument *document = sb_document_load(file, issues);
+  if (document == NULL) {
+    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN, issues);
+  }
+  return compile(model, document, settings, issues);
+}
+
+SbDocument *sb_cli_open_either(SbStudyFile **study, SbModel **model, const char *path,
+                               char **settings) {
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN | SB_SHIPPED_FOR_STUDY);
+  size_t length = 0;
+  g_autofree char *text = sb_document_load_text(&length, file, issues);
+  bool grouped = false;
+  g_autofree char *kind = text != NULL ? sb_reader_kind(&grouped, text, length) : NULL;
+  *study = NULL;
+  if (text == NULL) {
+    sb_cli_add_file_hint(path, SB_SHIPPED_FOR_RUN | SB_SHIPPED_FOR_STUDY, issues);
+  } else if (g_strcmp0(kind, "study") != 0) {
+    return compile(model, sb_document_read(file, text, length, issues), settings, issues);
+  } else {
+    *study = sb_study_file_read(file, text, length, settings, issues);
+  }
+  (void)tell_study(*study, issues);
+  return NULL;
 }
 
 bool sb_cli_has_memory(const SbModel *model) {

@@ -36,6 +36,17 @@ typedef struct {
 
 // ---- Kinds ----
 
+static void take_notes(Check *check, const GPtrArray *notes) {
+  for (guint i = 0; i < notes->len; i++) {
+    sb_issues_add_copy(check->issues[SEVERITY_NOTE], notes->pdata[i]);
+  }
+}
+
+static void take_document_notes(Check *check, const SbDocument *document) {
+  take_notes(check, sb_document_notes(document));
+  sb_document_kept(document, check->issues[SEVERITY_NOTE]);
+}
+
 static void check_document(Check *check) {
   GPtrArray *errors = check->issues[SEVERITY_ERROR];
   check->document =
@@ -53,16 +64,17 @@ static void check_document(Check *check) {
       (void)sb_document_check_cases(check->document, errors);
     }
   }
-  for (guint i = 0; i < sb_document_notes(check->document)->len; i++) {
-    sb_issues_add(check->issues[SEVERITY_NOTE], NULL, 0, NULL, NULL, "%s",
-                  (const char *)sb_document_notes(check->document)->pdata[i]);
-  }
+  take_document_notes(check, check->document);
 }
 
 static void check_study(Check *check) {
   check->kind = "study";
   check->study = sb_study_file_parse(check->text, check->length, check->shown, check->directory,
                                      check->settings, NULL, check->issues[SEVERITY_ERROR]);
+  if (check->study != NULL) {
+    take_document_notes(check, check->study->scene);
+    take_notes(check, check->study->notes);
+  }
   if (check->study != NULL && check->study->data->len > 0) {
     sb_calibrate_check(check->study, check->issues[SEVERITY_ERROR]);
   }
@@ -132,23 +144,6 @@ static bool take_picture(Check *check) {
   return true;
 }
 
-// The value of [sealbench] kind; NULL: the text is not a key file with one. Owned by the caller.
-// *grouped: whether it has any group of a key file.
-static char *kind_of_text(bool *grouped, const Check *check) {
-  *grouped = g_strstr_len(check->text, (gssize)check->length, "[sealbench]") != NULL;
-  g_autoptr(GPtrArray) ignored = sb_issues_new();
-  g_autoptr(GPtrArray) entries = sb_reader_scan(check->text, check->length, "", ignored);
-  for (guint i = 0; i < entries->len; i++) {
-    const SbEntry *entry = entries->pdata[i];
-    *grouped = *grouped || entry->group != NULL;
-    if (entry->name != NULL && strcmp(entry->group, "sealbench") == 0 &&
-        strcmp(entry->name, "kind") == 0) {
-      return g_strdup(entry->value);
-    }
-  }
-  return NULL;
-}
-
 static void check_text(Check *check) {
   static const char signature[] = "\x89PNG";
   const bool picture = check->length > 4 && memcmp(check->text, signature, 4) == 0;
@@ -156,7 +151,7 @@ static void check_text(Check *check) {
     return;
   }
   bool grouped = false;
-  g_autofree char *kind = kind_of_text(&grouped, check);
+  g_autofree char *kind = sb_reader_kind(&grouped, check->text, check->length);
   if (g_strcmp0(kind, "study") == 0) {
     check_study(check);
   } else if (g_strcmp0(kind, "rubber") == 0) {

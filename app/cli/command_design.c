@@ -100,8 +100,8 @@ static void print_design_table(const SbStudyFile *study, const SbDesign *design)
 // What must be said besides: an exit code.
 static int judge(const SbStudyFile *study, const SbDesign *design) {
   if (!design->found) {
-    return MAX(sb_cli_fail("the figures could not be computed at any start (inconsistent values)"),
-               SB_EXIT_NOT_CONVERGED);
+    g_autofree char *text = sb_design_lacking_text(study, design);
+    return MAX(sb_cli_fail("%s", text), SB_EXIT_NOT_CONVERGED);
   }
   if (!design->feasible) {
     const int least = sb_design_least_missed(design, study);

@@ -2,7 +2,6 @@
 #include "app/cli/cli.h"
 
 #include "app/base/output.h"
-#include "app/document/shipped.h"
 #include "app/export/report.h"
 
 #include <string.h>
@@ -70,12 +69,8 @@ static int report_run(const SbRun *run, const SbDocument *document, const SbMeas
                                    : SB_EXIT_NOT_CONVERGED;
 }
 
-static int report_scene(const char *path, const ReportOptions *options) {
-  SbModel *model = NULL;
-  g_autoptr(SbDocument) document = sb_cli_open(&model, path, options->settings);
-  if (document == NULL) {
-    return SB_EXIT_INPUT;
-  }
+static int report_scene(const SbDocument *document, const SbModel *model,
+                        const ReportOptions *options) {
   int code = sb_cli_check_outputs(NULL, NULL, options->output), read = SB_EXIT_DONE;
   if (code == SB_EXIT_DONE && !sb_cli_has_memory(model)) {
     code = SB_EXIT_IO;
@@ -99,7 +94,6 @@ static int report_scene(const char *path, const ReportOptions *options) {
     }
     sb_run_destroy(run);
   }
-  sb_model_destroy(model);
   return code;
 }
 
@@ -114,11 +108,7 @@ static int answered(void *data, const SbCliAnswers *of) {
   return write_pages(((const ReportOptions *)data)->output, NULL, &study);
 }
 
-static int report_study(const char *path, const ReportOptions *options) {
-  g_autoptr(SbStudyFile) study = sb_cli_open_study(path, options->settings);
-  if (study == NULL) {
-    return SB_EXIT_INPUT;
-  }
+static int report_study(const SbStudyFile *study, const char *path, const ReportOptions *options) {
   if (options->measured != NULL) {
     return sb_cli_fail("--measured: is for a scene, not for a study");
   }
@@ -136,6 +126,18 @@ static int report_study(const char *path, const ReportOptions *options) {
   const bool there = store != NULL && g_file_test(store, G_FILE_TEST_IS_REGULAR);
   const SbCliAsk ask = {.store = there ? store : NULL, .threads = options->threads};
   return sb_cli_answer(study, &ask, answered, (void *)options);
+}
+
+// The kind of the file decides, not its name: a pipe or standard input has no ending.
+static int report(const char *path, const ReportOptions *options) {
+  SbModel *model = NULL;
+  g_autoptr(SbStudyFile) study = NULL;
+  g_autoptr(SbDocument) document = sb_cli_open_either(&study, &model, path, options->settings);
+  const int code = study != NULL      ? report_study(study, path, options)
+                   : document != NULL ? report_scene(document, model, options)
+                                      : SB_EXIT_INPUT;
+  sb_model_destroy(model);
+  return code;
 }
 
 int sb_command_report(int argc, char **argv) {
@@ -157,10 +159,7 @@ int sb_command_report(int argc, char **argv) {
     } else if (strcmp(options.output, "-") != 0 && !sb_output_ends_in(options.output, ".pdf")) {
       code = sb_cli_fail("-o: %s: the ending must be .pdf", options.output);
     } else {
-      g_autofree char *file =
-          sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_RUN | SB_SHIPPED_FOR_STUDY);
-      code = sb_output_ends_in(file, ".study") ? report_study(argv[1], &options)
-                                               : report_scene(argv[1], &options);
+      code = report(argv[1], &options);
     }
   }
   return code;

@@ -155,6 +155,10 @@ static bool see_columns(void *data, const SbStoreRow *row) {
   return true;
 }
 
+static bool in_list(char **names, const char *name) {
+  return g_strv_contains((const char *const *)names, name);
+}
+
 // A value of a row by its column's name; NaN where the row has none.
 static double value_of(char **names, const double *value, size_t count, const char *name) {
   for (size_t i = 0; i < count && names[i] != NULL; i++) {
@@ -177,6 +181,12 @@ static void put_values(const Export *out, const GPtrArray *columns, char **names
     char choice[64];
     const char *name = columns->pdata[i];
     const double of = value_of(names, value, count, name);
+    // A parameter without a value is that of the scene, and the list of the row may not have a
+    // figure.
+    const bool absent = columns == out->parameter ? isnan(of) : !in_list(names, name);
+    if (out->json != NULL && absent) {
+      continue;
+    }
     const SbTableCell cell = sb_study_cell(choice, param_of(out, columns, name), of);
     if (out->json != NULL) {
       sb_json_cell(out->json, name, &cell);

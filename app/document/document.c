@@ -20,8 +20,8 @@ SbDocument *sb_document_new(void) {
   document->entries = sb_reader_scan(document->text, strlen(document->text), "", none);
   document->edits = g_array_new(FALSE, FALSE, sizeof(Edit));
   g_array_set_clear_func(document->edits, sb_document_clear_edit);
-  document->notes = g_ptr_array_new_with_free_func(g_free);
-  document->all_notes = g_ptr_array_new_with_free_func(g_free);
+  document->notes = sb_issues_new();
+  document->all_notes = sb_issues_new();
   document->faults = sb_issues_new();
   document->cases = sb_document_cases_new();
   document->pins = sb_document_pins_new();
@@ -175,8 +175,8 @@ static void read_values(SbDocument *document, SbParams *params, const SbParams *
         g_error_free(error);
       } else if (sb_params_set(params, (SbParamId)id, value, &report) != SB_OK) {
         sb_issues_add(issues, shown, entry->line, key, NULL, "%s", report.text);
-      } else if (sb_hardness_applies((SbParamId)id)) {
-        sb_document_note_hardness(document, key, entry->value);
+      } else {
+        sb_hardness_note(document->notes, shown, entry->line, key, (SbParamId)id, entry->value);
       }
     }
   }
@@ -294,37 +294,11 @@ void sb_document_refresh_title(SbDocument *document) {
   }
 }
 
-void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
-                            const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
-                            const SbParams *now) {
-  const int kind = (int)sb_params_get(now, SB_P_VALVE_KIND);
-  const double after = sb_params_get(now, giver);
-  for (int id = 0; id < SB_PARAM_COUNT && after != before; id++) {
-    if (!sb_param_keeps((SbParamId)id, giver, kind) || !given->given[id] || set[id]) {
-      continue;
-    }
-    g_autofree char *stays = sb_param_format((SbParamId)id, given->value[id]);
-    g_autofree char *first = sb_param_format(giver, before);
-    g_autofree char *second = sb_param_format(giver, after);
-    g_ptr_array_add(notes, g_strdup_printf("%s stays at the %s of the %s while %s changes from "
-                                           "%s to %s; set it too if the drawing changes both",
-                                           sb_param((SbParamId)id)->key, stays, file,
-                                           sb_param(giver)->key, first, second));
-  }
-}
-
-void sb_document_note_hardness(SbDocument *document, const char *key, const char *text) {
-  g_autofree char *note = sb_hardness_note(text);
-  if (note != NULL) {
-    g_ptr_array_add(document->notes, g_strdup_printf("%s: %s", key, note));
-  }
-}
-
 // Adds the note on a value in force that is not what a shape under it makes.
 void sb_document_note_override(SbDocument *document, SbParamId id, const char *shown) {
   g_autofree char *note = sb_document_shape_note(document, id);
   if (note != NULL) {
-    g_ptr_array_add(document->notes, g_strdup_printf("%s: %s", shown, note));
+    sb_issues_add(document->notes, shown, 0, sb_param(id)->key, NULL, "%s: %s", shown, note);
   }
 }
 
@@ -404,29 +378,39 @@ static SbDocument *parse_picture(const char *data, size_t length, const char *na
   return document;
 }
 
-SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
-  bool stream = strcmp(path, "-") == 0;
-  const char *name = stream ? "standard input" : path;
-  size_t length = 0;
-  bool picture = sb_output_ends_in(path, ".png");
-  size_t most = picture ? SB_PICTURE_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
-  char *text = stream ? sb_reader_load_stream(&length, STDIN_FILENO, name, most, issues)
-                      : sb_reader_load(&length, path, name, most, issues);
-  if (text == NULL) {
-    return NULL;
-  }
+// Name of a path in messages.
+static const char *shown_path(const char *path) {
+  return strcmp(path, "-") == 0 ? "standard input" : path;
+}
+
+char *sb_document_load_text(size_t *length, const char *path, GPtrArray *issues) {
+  const size_t most =
+      sb_output_ends_in(path, ".png") ? SB_PICTURE_BYTES_MAX : SB_DOCUMENT_BYTES_MAX;
+  return strcmp(path, "-") == 0
+             ? sb_reader_load_stream(length, STDIN_FILENO, shown_path(path), most, issues)
+             : sb_reader_load(length, path, path, most, issues);
+}
+
+SbDocument *sb_document_read(const char *path, const char *text, size_t length, GPtrArray *issues) {
   static const char signature[] = "\x89PNG";
-  picture = picture || (length > 4 && memcmp(text, signature, 4) == 0);
+  if (sb_output_ends_in(path, ".png") || (length > 4 && memcmp(text, signature, 4) == 0)) {
+    return parse_picture(text, length, shown_path(path), issues);
+  }
+  const bool stream = strcmp(path, "-") == 0;
   g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
-  SbDocument *document = picture ? parse_picture(text, length, name, issues)
-                                 : sb_document_parse(text, length, name, directory, issues);
-  if (document != NULL && !picture && !stream) {
+  SbDocument *document = sb_document_parse(text, length, shown_path(path), directory, issues);
+  if (document != NULL && !stream) {
     document->path = g_strdup(path);
     sb_file_stamp_set(&document->disk, path, text, length);
     sb_document_refresh_title(document);
   }
-  g_free(text);
   return document;
+}
+
+SbDocument *sb_document_load(const char *path, GPtrArray *issues) {
+  size_t length = 0;
+  g_autofree char *text = sb_document_load_text(&length, path, issues);
+  return text != NULL ? sb_document_read(path, text, length, issues) : NULL;
 }
 
 // ---- Asking ----
@@ -440,20 +424,12 @@ const SbData *sb_document_data(const SbDocument *document, size_t index) {
 }
 
 const GPtrArray *sb_document_notes(const SbDocument *document) {
-  // Those of sizes that stay depend on the values in force now.
   GPtrArray *all = document->all_notes;
   g_ptr_array_set_size(all, 0);
   for (guint i = 0; i < document->notes->len; i++) {
-    g_ptr_array_add(all, g_strdup(document->notes->pdata[i]));
+    sb_issues_add_copy(all, document->notes->pdata[i]);
   }
-  const SbParams now = sb_document_params(document);
-  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
-    if (document->own.given[giver]) {
-      sb_document_note_sizes(all, "valve's file", &document->base, document->own.given,
-                             (SbParamId)giver, sb_params_get(&document->base, (SbParamId)giver),
-                             &now);
-    }
-  }
+  sb_document_note_cases(document, all);
   return all;
 }
 

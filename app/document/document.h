@@ -68,6 +68,13 @@ bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
 // values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 
+// Returns the content of the file `path` ("-": standard input) for sb_document_read(), *length
+// bytes and a terminating 0; freed by g_free(). NULL with one issue, as sb_reader_load().
+char *sb_document_load_text(size_t *length, const char *path, GPtrArray *issues);
+
+// As sb_document_load(), from the content of `path` that sb_document_load_text() returned.
+SbDocument *sb_document_read(const char *path, const char *text, size_t length, GPtrArray *issues);
+
 // As sb_document_load(), from the `length` bytes of a file. `name` is used as its path in messages;
 // `directory` is the folder in which the valve and other files are looked for (NULL: the current
 // one). The document has no path.
@@ -92,10 +99,14 @@ const char *sb_document_path(const SbDocument *document);
 // Returns the path of a scene's valve file; NULL: a valve. Borrowed until the next save.
 const char *sb_document_valve_path(const SbDocument *document);
 
-// Returns sentences (const char *) that are no errors: values in force that differ from a part's
-// shape, the modulus that follows from a hardness, and sizes that stay although a drawing would
-// change them with another one. Borrowed until the next call for this document.
+// Returns notes (of SbIssue, whose text names the key too) that are no errors: values in force that
+// differ from a part's shape, and the modulus that follows from a hardness. Borrowed until the next
+// call for this document.
 const GPtrArray *sb_document_notes(const SbDocument *document);
+
+// Appends a note to `notes` (of SbIssue) for each size that stays although a drawing would change
+// it with a size that has changed. A run has the same text as its warning "size-kept".
+void sb_document_kept(const SbDocument *document, GPtrArray *notes);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of
 // [part.housing]": there it is edited. NULL: no shape gives it.

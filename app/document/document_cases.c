@@ -101,6 +101,33 @@ static void put_setting(SbParams *params, bool *set, SbNamedRubber **rubber,
   set[id] = true;
 }
 
+// Appends the notes on the settings of one line.
+static void note_line(GPtrArray *notes, const SbCase *one, const char *group, int line) {
+  g_autofree char *path = g_strdup_printf("%s.%s", group, one->name);
+  g_auto(GStrv) settings = g_strsplit(one->settings, ";", -1);
+  for (char **setting = settings; *setting != NULL; setting++) {
+    const char *text = NULL;
+    g_autofree char *key = sb_document_split(&text, g_strstrip(*setting));
+    const int id = key != NULL ? sb_param_find(key) : -1;
+    if (id >= 0) {
+      sb_hardness_note(notes, one->shown, line, path, (SbParamId)id, text);
+    }
+  }
+}
+
+void sb_document_note_cases(const SbDocument *document, GPtrArray *notes) {
+  for (guint i = 0; i < document->cases->len; i++) {
+    note_line(notes, document->cases->pdata[i], SB_CASES_GROUP, 0);
+  }
+  for (guint i = 0; i < document->entries->len; i++) {
+    const SbEntry *entry = document->entries->pdata[i];
+    if (entry->name != NULL && strcmp(entry->group, SB_PINS_GROUP) == 0) {
+      const SbCase pin = {entry->name, entry->value, document->name};
+      note_line(notes, &pin, SB_PINS_GROUP, entry->line);
+    }
+  }
+}
+
 bool sb_document_case_params(const SbDocument *document, const SbCase *one, const char *path,
                              SbParams *params, SbNamedRubber **rubber, GPtrArray *issues) {
   guint before = issues->len;

@@ -252,9 +252,10 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
     g_error_free(error);
   } else {
     good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
+    document->stated[id] = good;
     sb_document_note_override(document, (SbParamId)id, "--set");
-    if (good && sb_hardness_applies((SbParamId)id)) {
-      sb_document_note_hardness(document, key, text);
+    if (good) {
+      sb_hardness_note(document->notes, "--set", 0, key, (SbParamId)id, text);
     }
   }
   return good;
@@ -272,21 +273,6 @@ void sb_document_set_options(SbDocument *document, char *const *settings, GPtrAr
     const bool good = sb_document_set_value(document, SB_P_FLUID_FIGURES,
                                             kept.value[SB_P_FLUID_FIGURES], false, NULL);
     g_assert(good);
-  }
-  // Sizes of the document's own file that a changed size leaves as they are.
-  bool set[SB_PARAM_COUNT] = {false};
-  for (char *const *setting = settings; setting != NULL && *setting != NULL; setting++) {
-    const char *value;
-    g_autofree char *key = sb_document_split(&value, *setting);
-    const int id = key != NULL ? sb_param_find(key) : -1;
-    if (id >= 0) {
-      set[id] = true;
-    }
-  }
-  const SbParams after = sb_document_params(document);
-  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
-    sb_document_note_sizes(document->notes, "file", &document->own, set, (SbParamId)giver,
-                           sb_params_get(&before, (SbParamId)giver), &after);
   }
 }
 

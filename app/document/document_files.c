@@ -41,22 +41,21 @@ void sb_document_note_drawings(SbDocument *document) {
   for (int i = 0; i < 2 && document->data != NULL && document->data->profile.count > 0; i++) {
     const double is = sb_document_value(document, section[i]);
     if (fabs(height - is) > 1e-3 * is) {
-      g_ptr_array_add(document->notes,
-                      g_strdup_printf("seal.profile_file: the section of %s is %.4g mm high; %s = "
-                                      "%.4g mm applies, and the section is scaled to it",
-                                      document->file[SB_FILE_SECTION].name, 1e3 * height,
-                                      sb_param(section[i])->key, 1e3 * is));
+      sb_issues_add(document->notes, NULL, 0, "seal.profile_file", NULL,
+                    "seal.profile_file: the section of %s is %.4g mm high; %s = %.4g mm applies, "
+                    "and the section is scaled to it",
+                    document->file[SB_FILE_SECTION].name, 1e3 * height, sb_param(section[i])->key,
+                    1e3 * is);
     }
   }
   if (document->data != NULL && document->data->groove.count > 0) {
     const double drawn = document->data->groove.width;
     const double is = sb_document_value(document, SB_P_GLAND_AXIAL_WIDTH);
     if (fabs(drawn - is) > 1e-3 * is) {
-      g_ptr_array_add(
-          document->notes,
-          g_strdup_printf("gland.profile_file: the walls of %s are %.4g mm apart; "
-                          "gland.axial_width = %.4g mm applies, and the walls are moved to it",
-                          document->file[SB_FILE_GROOVE].name, 1e3 * drawn, 1e3 * is));
+      sb_issues_add(document->notes, NULL, 0, "gland.profile_file", NULL,
+                    "gland.profile_file: the walls of %s are %.4g mm apart; gland.axial_width = "
+                    "%.4g mm applies, and the walls are moved to it",
+                    document->file[SB_FILE_GROOVE].name, 1e3 * drawn, 1e3 * is);
     }
   }
 }

@@ -275,10 +275,11 @@ void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes) {
   for (size_t i = 0; i < G_N_ELEMENTS(sb_shape_parts); i++) {
     if (shapes->mesh[i]) {
       // A mesh need not be a body of revolution, and facets are no diameters.
-      g_ptr_array_add(notes,
-                      g_strdup_printf("%s: the mesh of [part.%s] gives mass and moments only; "
-                                      "the section draws a profile, not a mesh",
-                                      shown, sb_shape_parts[i]));
+      g_autofree char *group = g_strdup_printf("part.%s", sb_shape_parts[i]);
+      sb_issues_add(notes, shown, 0, group, NULL,
+                    "%s: the mesh of [part.%s] gives mass and moments only; the section draws a "
+                    "profile, not a mesh",
+                    shown, sb_shape_parts[i]);
     }
   }
   static const char *const needs[] = {"a bore", "an inner_groove and an outer_groove"};
@@ -286,10 +287,10 @@ void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes) {
     int part = i == 0 ? SB_VALVE_HOUSING : SB_VALVE_STEM_CENTRE;
     bool drawn = i == 0 ? outlines->housing : outlines->stem;
     if (outlines->part[part].count > 0 && !drawn) {
-      g_ptr_array_add(notes,
-                      g_strdup_printf("%s: the section does not draw the shape of [part.%s], "
-                                      "which needs %s to be put in its place",
-                                      shown, i == 0 ? "housing" : "stem_centre", needs[i]));
+      sb_issues_add(notes, shown, 0, i == 0 ? "part.housing" : "part.stem_centre", NULL,
+                    "%s: the section does not draw the shape of [part.%s], which needs %s to be "
+                    "put in its place",
+                    shown, i == 0 ? "housing" : "stem_centre", needs[i]);
     }
   }
 }
@@ -312,9 +313,10 @@ static void tell_stem_mass(const SbParams *params, const SbParams *base, const c
   }
   double sum = mass[1] + mass[2] + mass[3];
   if (own && fabs(mass[0] - sum) > 1e-3 * mass[0]) {
-    g_ptr_array_add(notes, g_strdup_printf("%s: stem.mass = %.5g g applies; the stem's parts add "
-                                           "up to %.5g g and are scaled in proportion",
-                                           shown, 1e3 * mass[0], 1e3 * sum));
+    sb_issues_add(notes, shown, 0, sb_param(SB_P_STEM_MASS)->key, NULL,
+                  "%s: stem.mass = %.5g g applies; the stem's parts add up to %.5g g and are "
+                  "scaled in proportion",
+                  shown, 1e3 * mass[0], 1e3 * sum);
   }
 }
 

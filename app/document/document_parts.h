@@ -58,13 +58,13 @@ const SbShapeSize *sb_shapes_own(const SbShapes *shapes, SbParamId id, bool in_v
 //
 // A shape takes precedence over sizes in its own file: a key that differs from it by more than
 // SB_SHAPE_ROUNDING is an issue. A mass or moment of inertia that a key gives applies in place of
-// that of the shape; then a sentence is appended to `notes` (of char *). A shape that cannot be
+// that of the shape; then a sentence is appended to `notes` (of SbIssue). A shape that cannot be
 // read or bounds no body is an issue with file, group and key.
 void sb_parts_read(SbShapes *shapes, SbParams *params, const SbParams *base,
                    const GPtrArray *entries, const char *shown, const char *directory,
                    GPtrArray *issues, GPtrArray *notes);
 
 // Decides which outlines the section can draw (shapes->outlines), and appends a sentence to `notes`
-// (of char *), in which `shown` names the document's file, for each shape that it cannot. Call it
+// (of SbIssue), in which `shown` names the document's file, for each shape that it cannot. Call it
 // once, after all files were read by sb_parts_read(): that of the valve first.
 void sb_shapes_settle(SbShapes *shapes, const char *shown, GPtrArray *notes);

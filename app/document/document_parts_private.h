@@ -9,7 +9,7 @@ typedef struct {
   const GPtrArray *entries;  // of SbEntry: the file
   const char *group;         // "part.NAME"
   const char *shown;         // name of the file in messages
-  GPtrArray *issues, *notes; // appended to; of SbIssue, and of char *
+  GPtrArray *issues, *notes; // appended to; of SbIssue
   int index;                 // the part: SB_VALVE_HOUSING, ...
   SbShapes *shapes;          // results
   SbParams *params;          // values of the file, and results

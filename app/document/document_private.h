@@ -94,6 +94,7 @@ struct SbDocument {
   SbParams base;                      // values that the valve gives (scenes)
   SbParams own;                       // values that the document itself gives
   SbParams saved;                     // values that its file gives
+  bool stated[SB_PARAM_COUNT];        // values of --set
   SbLimits limits;                    // of the valve, replaced by the own ones
   GPtrArray *cases;                   // of SbCase, of the valve, replaced by the own ones
   GPtrArray *pins;                    // only the own ones (document_pins.c)
@@ -102,7 +103,7 @@ struct SbDocument {
   GPtrArray *remark[SB_REMARK_KINDS]; // bookmarks and notes (document_review.c)
   bool remarks_changed;               // since the file was read or written
   SbShapes *shapes;                   // of the parts
-  GPtrArray *notes;                   // of char *: differences between shapes and values, ...
+  GPtrArray *notes;                   // of SbIssue: differences between shapes and values, ...
   GPtrArray *all_notes;               // result of the last sb_document_notes()
   GPtrArray *faults;                  // of SbIssue: errors of the files (document_faults.c)
   GArray *edits;                      // of Edit
@@ -314,16 +315,8 @@ void sb_document_data_saved(SbDocument *document);
 
 // ---- Notes ----
 
-// Appends a sentence to `notes` (of char *) for each size that stays at the value of `given` while
-// `giver`, with which a drawing would change it, changes from `before` [SI] to its value in `now`.
-// `file` names the file of the given values for the user. Sizes in `set` get no note.
-void sb_document_note_sizes(GPtrArray *notes, const char *file, const SbParams *given,
-                            const bool set[SB_PARAM_COUNT], SbParamId giver, double before,
-                            const SbParams *now);
-
-// Appends a note that states the modulus and the relation if `text`, the value of `key`, is a
-// hardness.
-void sb_document_note_hardness(SbDocument *document, const char *key, const char *text);
+// Appends a note to `notes` (of SbIssue) for each hardness in [cases] and in the file's [pins].
+void sb_document_note_cases(const SbDocument *document, GPtrArray *notes);
 
 // Appends a note that a value in force differs from the size of a shape (sb_document_shape_note());
 // `shown` names the file that gives the value. Does nothing if they agree.

@@ -28,9 +28,9 @@ void sb_part_derive_mass(const SbPart *part, SbParamId id, double value, const c
   } else if (differs(part, id, value)) {
     g_autofree char *says = sb_quantity_format(part->params->value[id], param->si, param->unit);
     g_autofree char *other = sb_quantity_round(value, param->si, param->unit, 5);
-    g_ptr_array_add(part->notes,
-                    g_strdup_printf("%s: %s = %s applies; the %s of [%s] results in %s",
-                                    part->shown, param->key, says, source, part->group, other));
+    sb_issues_add(part->notes, part->shown, 0, param->key, NULL,
+                  "%s: %s = %s applies; the %s of [%s] results in %s", part->shown, param->key,
+                  says, source, part->group, other);
   }
 }
 

@@ -16,21 +16,40 @@ const char *sb_document_title(const SbDocument *document) {
   return document->title;
 }
 
-SbParams sb_document_params(const SbDocument *document) {
+// The values of the valve's file with `own` in force.
+static SbParams overlay(const SbDocument *document, const SbParams *own) {
   SbParams params = document->base;
   params.rubber =
       document->data != NULL && document->data->rubber.count > 0 ? &document->data->rubber : NULL;
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
-    if (document->own.given[i]) {
+    if (own->given[i]) {
       params.given[i] = true;
-      params.value[i] = document->own.value[i];
+      params.value[i] = own->value[i];
     }
   }
   return params;
 }
 
+// A size is from the drawing of the file that gives it: that of the valve, or the document as its
+// file states it, unless --set or an edit gives the size.
+SbParams sb_document_params(const SbDocument *document) {
+  SbParams params = overlay(document, &document->own);
+  const SbParams *own = &document->own, *saved = &document->saved;
+  const SbParams file = overlay(document, saved);
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    SbParamId id, giver;
+    const bool row = sb_params_keeps(&id, &giver, i, kind) && params.given[id];
+    const SbParams *drawing = !own->given[id] ? &document->base : &file;
+    const bool same = !own->given[id] || (saved->given[id] && !document->stated[id] &&
+                                          saved->value[id] == own->value[id]);
+    params.drawn[i] = row && same ? sb_params_get(drawing, giver) : 0;
+  }
+  return params;
+}
+
 double sb_document_value(const SbDocument *document, SbParamId id) {
-  SbParams params = sb_document_params(document);
+  const SbParams params = overlay(document, &document->own);
   return sb_params_get(&params, id);
 }
 
@@ -108,6 +127,18 @@ void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrA
   g_autofree SbProblems *problems = g_new(SbProblems, 1);
   sb_model_remarks(model, problems);
   add_problems(document, &params, problems, issues);
+}
+
+void sb_document_kept(const SbDocument *document, GPtrArray *notes) {
+  const SbParams params = sb_document_params(document);
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    char text[SB_TEXT];
+    SbParamId id;
+    if (sb_params_kept(text, &id, &params, i)) {
+      sb_issues_add(notes, document->own.given[id] ? document->name : document->valve_path, 0,
+                    sb_param(id)->key, NULL, "%s", text);
+    }
+  }
 }
 
 static void sum_series(GChecksum *sum, const SbModelSeries *series) {

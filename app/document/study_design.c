@@ -92,6 +92,30 @@ void sb_study_check_design(SbStudyReader *reader) {
   }
 }
 
+void sb_study_note_kept(SbStudyReader *reader) {
+  const SbStudyFile *study = reader->study;
+  if (study->scene == NULL) {
+    return;
+  }
+  const SbParams params = sb_document_params(study->scene);
+  const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
+  for (guint k = 0; k < study->vary->len; k++) {
+    const SbVary *vary = &g_array_index(study->vary, SbVary, k);
+    for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+      SbParamId id, giver;
+      const bool row = sb_params_keeps(&id, &giver, i, kind) && vary->id == giver;
+      if (row && params.given[id] && vary->distribution.kind != SB_DISTRIBUTION_NORMAL &&
+          sb_study_vary_index(study, sb_param(id)->key) < 0) {
+        g_autofree char *key = g_strdup_printf(GROUP_VARY ".%s", sb_param(giver)->key);
+        g_autofree char *stays = sb_param_format(id, params.value[id]);
+        sb_issues_add(study->notes, reader->shown, vary->line, key, NULL,
+                      "%s stays at %s while %s varies; vary it too if the drawing changes both",
+                      sb_param(id)->key, stays, sb_param(giver)->key);
+      }
+    }
+  }
+}
+
 // A size that follows another one follows its design, not the scatter of its manufacture: it is
 // fixed at what the middle of the other one's tolerance makes of it.
 static void fix_kept(SbStudyFile *about, const SbStudyFile *study, const double *value) {

@@ -38,22 +38,22 @@ int sb_study_vary_index(const SbStudyFile *study, const char *key) {
   return -1;
 }
 
-SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues) {
+SbStudyFile *sb_study_file_read(const char *path, const char *text, size_t length, char **settings,
+                                GPtrArray *issues) {
   const bool stream = strcmp(path, "-") == 0;
   const char *shown = stream ? "standard input" : path;
-  size_t length = 0;
-  g_autofree char *text =
-      stream ? sb_reader_load_stream(&length, STDIN_FILENO, shown, SB_DOCUMENT_BYTES_MAX, issues)
-             : sb_reader_load(&length, path, shown, SB_DOCUMENT_BYTES_MAX, issues);
-  if (text == NULL) {
-    return NULL;
-  }
   g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
   SbStudyFile *study = sb_study_file_parse(text, length, shown, directory, settings, NULL, issues);
   if (study != NULL && !stream) {
     study->path = g_strdup(path);
   }
   return study;
+}
+
+SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues) {
+  size_t length = 0;
+  g_autofree char *text = sb_document_load_text(&length, path, issues);
+  return text != NULL ? sb_study_file_read(path, text, length, settings, issues) : NULL;
 }
 
 void sb_study_file_free(SbStudyFile *study) {
@@ -82,6 +82,7 @@ void sb_study_file_free(SbStudyFile *study) {
   sb_document_free(study->scene);
   sb_model_destroy(study->base);
   g_clear_pointer(&study->data, g_ptr_array_unref);
+  g_ptr_array_unref(study->notes);
   g_free(study->base_sha256);
   g_free(study->root);
   g_free(study->path);

@@ -100,12 +100,17 @@ typedef struct {
   SbLeakageTest leakage; // of [leakage_test]
   size_t leakage_tests;  // number of simulated tests; 0: none
   GPtrArray *data;       // of SbData
+  GPtrArray *notes;      // of SbIssue: the moduli that follow from hardnesses in its own lines
   bool borrowed;         // all members but the arrays belong to another study
 } SbStudyFile;
 
 // Reads the study file `path` ("-": standard input) and its scene, and applies the KEY=VALUE
 // settings (ends with NULL; NULL: none) to the scene. Returns NULL with at least one issue.
 SbStudyFile *sb_study_file_load(const char *path, char **settings, GPtrArray *issues);
+
+// As sb_study_file_load(), from the content of `path` that sb_document_load_text() returned.
+SbStudyFile *sb_study_file_read(const char *path, const char *text, size_t length, char **settings,
+                                GPtrArray *issues);
 
 // As sb_study_file_load(), from the `length` bytes of a file. `name` is used as its path in
 // messages; the scene is looked for in `directory` (NULL: the current folder). If `scene` is not

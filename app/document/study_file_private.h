@@ -57,6 +57,11 @@ void sb_study_read_design(SbStudyReader *reader, const SbEntry *entry);
 // Checks, after all groups were read, what a design requires of them; appends issues.
 void sb_study_check_design(SbStudyReader *reader);
 
+// Called after all groups were read. Appends a note to study->notes for each size that stays while
+// the study changes the size with which a drawing would change it. Scatter of manufacture (normal)
+// changes no drawing.
+void sb_study_note_kept(SbStudyReader *reader);
+
 // Reads a line of [leakage_test] to study->leakage; appends an issue if it is wrong.
 void sb_study_read_leakage(SbStudyReader *reader, const SbEntry *entry);
 

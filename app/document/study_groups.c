@@ -423,6 +423,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
   study->scene = scene;
   study->vary = g_array_new(FALSE, FALSE, sizeof(SbVary));
   study->figures = g_array_new(FALSE, FALSE, sizeof(int));
+  study->notes = sb_issues_new();
   study->method = SB_METHOD_MONTE_CARLO;
   study->seed = 1;
   study->design = (SbDesignWish){.figure = SB_FIGURE_NONE, .robust = NAN, .starts = 8};
@@ -442,6 +443,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
   if (issues->len > before) {
     return NULL;
   }
+  sb_study_note_kept(&reader);
   // Probabilities of limits need no other figure.
   const bool all =
       study->figures->len == 0 && study->method != SB_METHOD_RELIABILITY && !study->design.asked;

@@ -43,8 +43,10 @@ static bool read_difference(double *out, const SbVary *vary, double at, const ch
   return sb_quantity_parse(out, trimmed, param->si, shown, error);
 }
 
-// A value of the parameter, within its range, or of a tolerance.
-static bool read_value(double *out, const SbVary *vary, const char *text, GError **error) {
+// A value of the parameter, within its range, or of a tolerance. Appends the text of a value that
+// is no expression to `values` (of char *), as do the functions that call this one.
+static bool read_value(double *out, const SbVary *vary, GPtrArray *values, const char *text,
+                       GError **error) {
   if (vary->offset) {
     return read_difference(out, vary, NAN, text, error);
   }
@@ -52,6 +54,7 @@ static bool read_value(double *out, const SbVary *vary, const char *text, GError
   const bool variable = vary->id == SB_VARY_VARIABLE;
   if (variable ? sb_quantity_parse(out, trimmed, "1", "", error)
                : sb_param_parse(out, vary->id, trimmed, error)) {
+    g_ptr_array_add(values, g_steal_pointer(&trimmed));
     return true;
   }
   const SbParam *param = variable ? NULL : sb_param(vary->id);
@@ -67,22 +70,23 @@ static bool read_value(double *out, const SbVary *vary, const char *text, GError
 }
 
 // "A .. B".
-static bool read_range(double *low, double *high, const SbVary *vary, const char *text,
-                       GError **error) {
+static bool read_range(double *low, double *high, const SbVary *vary, GPtrArray *values,
+                       const char *text, GError **error) {
   text += strspn(text, " \t");
   const char *dots = strstr(text, "..");
   if (dots == NULL) {
     return fail_vary(error, "\"%s\" is not a range", text);
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));
-  if (!read_value(low, vary, first, error) || !read_value(high, vary, dots + 2, error)) {
+  if (!read_value(low, vary, values, first, error) ||
+      !read_value(high, vary, values, dots + 2, error)) {
     return false;
   }
   return *low < *high || fail_vary(error, "the range \"%s\" does not rise", text);
 }
 
 // "A .. B" or "A .. B, N".
-static bool read_uniform(SbVary *vary, const char *text, GError **error) {
+static bool read_uniform(SbVary *vary, GPtrArray *values, const char *text, GError **error) {
   SbDistribution *of = &vary->distribution;
   const char *comma = strchr(text, ',');
   if (comma != NULL) {
@@ -95,7 +99,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
     of->count = (size_t)count;
   }
   g_autofree char *range = g_strndup(text, comma != NULL ? (gsize)(comma - text) : strlen(text));
-  if (!read_range(&of->a, &of->b, vary, range, error)) {
+  if (!read_range(&of->a, &of->b, vary, values, range, error)) {
     return false;
   }
   return of->kind != SB_DISTRIBUTION_LOGUNIFORM || of->a > 0 ||
@@ -103,7 +107,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
 }
 
 // "MEAN, DEVIATION" or "MEAN, DEVIATION within A .. B".
-static bool read_normal(SbVary *vary, const char *text, GError **error) {
+static bool read_normal(SbVary *vary, GPtrArray *values, const char *text, GError **error) {
   SbDistribution *of = &vary->distribution;
   const char *comma = strchr(text, ','), *within = strstr(text, " within ");
   if (comma == NULL || (within != NULL && within < comma)) {
@@ -112,9 +116,9 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
   g_autofree char *deviation = g_strstrip(
       g_strndup(comma + 1, within != NULL ? (gsize)(within - comma - 1) : strlen(comma + 1)));
-  if (!read_value(&of->a, vary, mean, error) ||
+  if (!read_value(&of->a, vary, values, mean, error) ||
       !(vary->id == SB_VARY_VARIABLE
-            ? read_value(&of->b, vary, deviation, error)
+            ? read_value(&of->b, vary, values, deviation, error)
             : read_difference(&of->b, vary, vary->offset ? NAN : of->a, deviation, error))) {
     return false;
   }
@@ -124,7 +128,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   of->low = -INFINITY;
   of->high = INFINITY;
   if (within != NULL) {
-    if (!read_range(&of->low, &of->high, vary, within + strlen(" within "), error)) {
+    if (!read_range(&of->low, &of->high, vary, values, within + strlen(" within "), error)) {
       return false;
     }
     // Six deviations out there is one value in 1e9.
@@ -136,7 +140,8 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
 }
 
 // Levels behind the `before` that are there.
-static bool add_levels(SbVary *vary, size_t before, const char *text, GError **error) {
+static bool add_levels(SbVary *vary, GPtrArray *values, size_t before, const char *text,
+                       GError **error) {
   g_auto(GStrv) parts = g_strsplit(text, ",", -1);
   const size_t count = before + g_strv_length(parts);
   if (count > SB_SAMPLES_MAX / 10) {
@@ -144,7 +149,7 @@ static bool add_levels(SbVary *vary, size_t before, const char *text, GError **e
   }
   vary->levels = g_renew(double, vary->levels, count + 1);
   for (size_t i = before; i < count; i++) {
-    if (!read_value(&vary->levels[i], vary, parts[i - before], error)) {
+    if (!read_value(&vary->levels[i], vary, values, parts[i - before], error)) {
       return false;
     }
   }
@@ -154,16 +159,18 @@ static bool add_levels(SbVary *vary, size_t before, const char *text, GError **e
   return count > 0 || fail_vary(error, "there are no levels");
 }
 
-static bool read_levels(SbVary *vary, const char *text, GError **error) {
-  return add_levels(vary, 0, text, error);
+static bool read_levels(SbVary *vary, GPtrArray *values, const char *text, GError **error) {
+  return add_levels(vary, values, 0, text, error);
 }
 
 // "uniform A .. B, N and C, D": the points of the range as levels, then others.
-static bool read_and(SbVary *vary, const char *text, const char *others,
-                     bool (*read)(SbVary *vary, const char *text, GError **error), GError **error) {
+static bool read_and(SbVary *vary, GPtrArray *values, const char *text, const char *others,
+                     bool (*read)(SbVary *vary, GPtrArray *values, const char *text,
+                                  GError **error),
+                     GError **error) {
   const SbDistribution *of = &vary->distribution;
   g_autofree char *range = g_strndup(text, (gsize)(others - text));
-  if (!read(vary, range, error)) {
+  if (!read(vary, values, range, error)) {
     return false;
   }
   const size_t count = of->count;
@@ -174,14 +181,14 @@ static bool read_and(SbVary *vary, const char *text, const char *others,
   for (size_t i = 0; i < count; i++) {
     vary->levels[i] = sb_study_grid_level(of, i);
   }
-  return add_levels(vary, count, others + strlen(" and "), error);
+  return add_levels(vary, values, count, others + strlen(" and "), error);
 }
 
-static bool read_distribution(SbVary *vary, const char *text, GError **error) {
+static bool read_distribution(SbVary *vary, GPtrArray *values, const char *text, GError **error) {
   static const struct {
     const char *name;
     SbDistributionKind kind;
-    bool (*read)(SbVary *vary, const char *text, GError **error);
+    bool (*read)(SbVary *vary, GPtrArray *values, const char *text, GError **error);
   } forms[] = {{"uniform", SB_DISTRIBUTION_UNIFORM, read_uniform},
                {"loguniform", SB_DISTRIBUTION_LOGUNIFORM, read_uniform},
                {"normal", SB_DISTRIBUTION_NORMAL, read_normal},
@@ -207,8 +214,8 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
       }
       return and != NULL && (vary->distribution.kind == SB_DISTRIBUTION_UNIFORM ||
                              vary->distribution.kind == SB_DISTRIBUTION_LOGUNIFORM)
-                 ? read_and(vary, text + length, and, forms[i].read, error)
-                 : forms[i].read(vary, text + length, error);
+                 ? read_and(vary, values, text + length, and, forms[i].read, error)
+                 : forms[i].read(vary, values, text + length, error);
     }
   }
   return fail_vary(error, "\"%s\" is not a distribution", text);
@@ -223,6 +230,7 @@ void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *lis
                  .line = entry->line,
                  .grid = reader->grid};
   g_autoptr(GError) error = NULL;
+  g_autoptr(GPtrArray) values = g_ptr_array_new_with_free_func(g_free);
   if (id < 0 && !variable) {
     g_autofree char *hint = sb_document_key_hint(entry->name);
     g_autofree char *text = g_strdup_printf("there is no such parameter%s", hint);
@@ -231,7 +239,7 @@ void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *lis
     sb_study_add_issue(reader, entry, NULL, "a list of words does not vary");
   } else if (list->len == SB_VARY_MAX) {
     sb_study_add_issue(reader, entry, NULL, "is more than the 64 parameters that may vary");
-  } else if (!read_distribution(&vary, entry->value, &error)) {
+  } else if (!read_distribution(&vary, values, entry->value, &error)) {
     g_autofree char *range = variable ? g_strdup("numbers") : sb_param_range(vary.id);
     sb_study_add_issue(reader, entry,
                        error->code == BAD_FORM ? (offset ? tolerance_forms : sb_study_vary_forms)
@@ -243,5 +251,10 @@ void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *lis
   } else {
     vary.name = variable ? g_strdup(entry->name) : NULL;
     g_array_append_val(list, vary);
+    g_autofree char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
+    for (guint i = 0; i < values->len && !variable; i++) {
+      sb_hardness_note(reader->study->notes, reader->shown, entry->line, key, vary.id,
+                       values->pdata[i]);
+    }
   }
 }

@@ -23,6 +23,23 @@ int sb_design_least_missed(const SbDesign *design, const SbStudyFile *study) {
   return least;
 }
 
+int sb_design_lacking(const SbDesign *design) {
+  size_t i = 0;
+  while (i < design->figures && design->reason[i] == NULL) {
+    i++;
+  }
+  return i < design->figures ? (int)i : -1;
+}
+
+char *sb_design_lacking_text(const SbStudyFile *study, const SbDesign *design) {
+  const int at = sb_design_lacking(design);
+  return at < 0 ? g_strdup("the figures could not be computed at any start")
+                : g_strdup_printf("no start has a value of each figure; the first one has none of "
+                                  "%s: %s",
+                                  sb_figure(g_array_index(study->figures, int, at))->path,
+                                  design->reason[at]);
+}
+
 static void put_parameters(SbJson *json, const SbStudyFile *study, const SbDesign *design) {
   sb_json_object(json, "parameters");
   for (guint k = 0; k < study->vary->len; k++) {
@@ -75,6 +92,39 @@ static void put_robust(SbJson *json, const SbStudyFile *study, const SbDesign *d
   sb_json_object_end(json);
 }
 
+// The reasons of all nulls, by their paths in the document.
+static void put_design_reasons(SbJson *json, const SbStudyFile *study, const SbDesign *design) {
+  const int lacking = sb_design_lacking(design);
+  sb_json_object(json, "reasons");
+  for (guint i = 0; i < study->figures->len; i++) {
+    if (design->reason[i] != NULL) {
+      const char *path = sb_figure(g_array_index(study->figures, int, i))->path;
+      g_autofree char *key = g_strconcat("figures.", path, NULL);
+      sb_json_string(json, key, design->reason[i]);
+    }
+  }
+  if (!design->feasible) {
+    static const char none[] = "no feasible design was found";
+    sb_json_string(json, "optimality", none);
+    if (design->found && sb_design_least_missed(design, study) < 0) {
+      sb_json_string(json, "least_violated",
+                     "the limits are met, but not with the required probability");
+    }
+    if (isfinite(study->design.robust) && !design->checked) {
+      sb_json_string(json, "robust", none);
+    }
+  }
+  if (!design->found && lacking >= 0) {
+    g_autofree char *text = sb_design_lacking_text(study, design);
+    static const char *const members[] = {"objective", "parameters", "figures", "margins",
+                                          "least_violated"};
+    for (size_t i = 0; i < G_N_ELEMENTS(members); i++) {
+      sb_json_string(json, members[i], text);
+    }
+  }
+  sb_json_object_end(json);
+}
+
 char *sb_design_json(const SbStudyFile *study, const SbDesign *design) {
   SbJson json;
   sb_json_document(&json);
@@ -110,6 +160,7 @@ char *sb_design_json(const SbStudyFile *study, const SbDesign *design) {
   }
   sb_json_count(&json, "evaluations", design->evaluations);
   sb_json_number(&json, "optimality", design->optimality);
+  put_design_reasons(&json, study, design);
   sb_json_count(&json, "starts", design->starts);
   sb_json_count(&json, "starts_feasible", design->starts_feasible);
   if (design->checked || isfinite(study->design.robust)) {

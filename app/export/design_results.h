@@ -7,5 +7,11 @@
 // to the larger magnitude of bound and figure; -1: no limit is violated.
 int sb_design_least_missed(const SbDesign *design, const SbStudyFile *study);
 
+// Returns the column (in study->figures) of the first figure that has no value; -1: all have one.
+int sb_design_lacking(const SbDesign *design);
+
+// Returns a sentence that states why no design was found.
+char *sb_design_lacking_text(const SbStudyFile *study, const SbDesign *design);
+
 // Returns the JSON document of `sealbench design`.
 char *sb_design_json(const SbStudyFile *study, const SbDesign *design);

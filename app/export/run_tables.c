@@ -4,6 +4,7 @@
 #include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/format.h"
+#include "app/base/issue.h"
 #include "app/session/verdict_text.h"
 
 #include "engine/valve/sealbench.h"
@@ -255,7 +256,8 @@ SbTable *sb_run_warnings(const SbWarnings *warnings, const GPtrArray *notes) {
   }
   for (guint i = 0; notes != NULL && i < notes->len; i++) {
     const SbTableCell code = sb_cell_text("note");
-    sb_table_add(table, SB_CELLS(code, sb_cell_text(notes->pdata[i]), code, sb_cell_text(NULL)));
+    sb_table_add(table, SB_CELLS(code, sb_cell_text(((const SbIssue *)notes->pdata[i])->text), code,
+                                 sb_cell_text(NULL)));
   }
   return table;
 }

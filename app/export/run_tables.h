@@ -27,7 +27,7 @@ SbTable *sb_run_verdict(const SbSummary *summary, const SbCaseVerdict *verdict);
 char *sb_run_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict);
 
 // Returns the warnings with their codes and parameters, serious ones marked as doubtful. `notes`,
-// of char *, are added to the rows; NULL: none.
+// of SbIssue, are added to the rows; NULL: none.
 SbTable *sb_run_warnings(const SbWarnings *warnings, const GPtrArray *notes);
 
 // Returns the value of a figure (index of sb_figure()) with its unit and the digits that its error

@@ -467,6 +467,10 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const S
   put_typical(&json, study);
   put_warnings(&json, answers);
   put_failures(&json, answers);
+  sb_study_put_missing(&json, answers);
+  if (status == SB_OK) {
+    status = sb_study_put_reasons(&json, study, drawn, answers, report);
+  }
   sb_json_object_end(&json);
   char *text = sb_json_finish(&json);
   if (status != SB_OK) {

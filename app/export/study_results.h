@@ -63,6 +63,16 @@ char *sb_study_typical(const SbStudyFile *study, SbShelfSpecies species);
 // scene) of the open object; "-" is standard input.
 void sb_json_study_files(SbJson *json, const SbStudyFile *study);
 
+// Writes the member "missing" of the open object: the samples that were computed and have no value
+// of a figure, at most 100, each with its reason.
+void sb_study_put_missing(SbJson *json, const SbAnswers *answers);
+
+// Writes the member "reasons" of the open object: why figures, indices and probabilities of limits
+// are null or do not account for all samples, by their path in the document of sb_study_json().
+// Returns SB_OK or SB_ERROR_MEMORY.
+SbStatus sb_study_put_reasons(SbJson *json, const SbStudyFile *study, const SbStudyDrawn *drawn,
+                              const SbAnswers *answers, SbReport *report);
+
 // Returns the JSON document of `sealbench study`. `drawn`: the points of the method (shares.h);
 // `cpus`: name and number of processors, `store`: path of the store (NULL: none), for the document.
 // NULL with `report` if a statistic could not be computed.

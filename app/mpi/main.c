@@ -22,7 +22,7 @@
 
 enum { TAG_READY, TAG_ANSWER, TAG_SAMPLE, TAG_STOP };
 // REASON and WARNINGS: bytes of an answer's texts, one behind the other.
-enum { REASON = SB_TEXT, WARNINGS = 2560, STATUS = 1, BLOCK = 64 };
+enum { REASON = SB_ANSWER_REASON, WARNINGS = 2560, STATUS = 1, BLOCK = 64 };
 
 static int processes, stopped; // stopped: how many were told
 static bool served;            // another process than the first has asked for samples

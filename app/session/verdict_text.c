@@ -63,7 +63,8 @@ static char *figure_text(const SbSummary *summary, int kind, const SbVerdict *ve
     value = sb_figure_value(summary, figure);
   }
   if (isnan(value)) {
-    return g_strdup(kind == SB_VERDICT_LEAK ? "" : _("not known"));
+    // A failure without a value has its reason: an open seal, or a stem that never moves.
+    return g_strdup(kind == SB_VERDICT_LEAK || verdict->ok == SB_ANSWER_NO ? "" : _("not known"));
   }
   g_autofree char *own = format(figure, value, sb_figure_error(summary, figure));
   if (isnan(verdict->limit) || verdict->figure < 0) {

@@ -51,6 +51,40 @@ char *sb_warning_codes(const SbWarnings *warnings, const char *separator) {
   return g_string_free(text, text->len == 0);
 }
 
+// Returns why requested figures of a valve that was computed have no value, "FIGURE, FIGURE:
+// reason;
+// ..."; NULL: all have one. It is shorter than SB_ANSWER_REASON.
+static char *missing_reasons(const SbStoredAnswer *answer, const SbQuestions *asked,
+                             const SbEvaluator *evaluator) {
+  GString *text = NULL;
+  const char *last = "";
+  for (size_t k = 0; k < asked->figures; k++) {
+    const int figure = asked->figure[k];
+    const char *reason = isnan(answer->value[k]) ? sb_evaluator_reason(evaluator, figure) : NULL;
+    if (reason == NULL) {
+      continue;
+    }
+    if (text != NULL && text->len > SB_ANSWER_REASON - 2 * SB_TEXT) {
+      g_string_append(text, ", and more");
+      break;
+    }
+    if (text == NULL) {
+      text = g_string_new(NULL);
+    } else if (strcmp(reason, last) == 0) {
+      g_string_append(text, ", ");
+    } else {
+      g_string_append_printf(text, ": %s; ", last);
+    }
+    g_string_append(text, sb_figure(figure)->path);
+    last = reason;
+  }
+  if (text == NULL) {
+    return NULL;
+  }
+  g_string_append_printf(text, ": %s", last);
+  return g_string_free(text, FALSE);
+}
+
 SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestions *asked,
                    size_t sample, bool (*cancelled)(void *data), void *data) {
   SbOverride override[SB_QUESTION_PARAMETERS];
@@ -78,7 +112,7 @@ SbStatus sb_answer(SbStoredAnswer *out, SbEvaluator *evaluator, const SbQuestion
     asked->seen(asked->data, sample, status, &report, evaluator);
   }
   out->status = status;
-  out->reason = NULL;
+  out->reason = status == SB_OK ? missing_reasons(out, asked, evaluator) : NULL;
   const SbSummary *summary = sb_evaluator_summary(evaluator);
   out->warnings = summary != NULL ? sb_warning_codes(&summary->warnings, ";") : NULL;
   if (status != SB_OK) {
@@ -129,11 +163,15 @@ double *sb_answer_place(SbAnswerSink *sink, size_t sample) {
   return sink->out->value + sample * sink->asked->figures;
 }
 
-// Takes over the answer's strings.
-static void set_answer(SbAnswers *out, size_t sample, const SbStoredAnswer *answer) {
+// Takes over the answer's strings. answer->reason becomes the one string that all samples with this
+// reason share, borrowed.
+static void set_answer(SbAnswers *out, size_t sample, SbStoredAnswer *answer) {
   out->status[sample] = (uint8_t)answer->status;
   if (answer->reason != NULL) {
-    g_hash_table_insert(out->reason, GSIZE_TO_POINTER(sample), answer->reason);
+    char *shared = g_ref_string_new_intern(answer->reason);
+    g_free(answer->reason);
+    answer->reason = shared;
+    g_hash_table_insert(out->reason, GSIZE_TO_POINTER(sample), shared);
   }
   if (answer->warnings != NULL) {
     g_hash_table_insert(out->warnings, GSIZE_TO_POINTER(sample), answer->warnings);
@@ -320,7 +358,7 @@ static void repeat(SbAnswerSink *sink) {
     if (from == i) {
       continue;
     }
-    const SbStoredAnswer answer = {
+    SbStoredAnswer answer = {
         .status = out->status[from],
         .reason = g_strdup(g_hash_table_lookup(out->reason, GSIZE_TO_POINTER(from))),
         .warnings = g_strdup(g_hash_table_lookup(out->warnings, GSIZE_TO_POINTER(from)))};
@@ -365,7 +403,7 @@ bool sb_answers_set_list(const SbQuestions *asked, const char *const *name, GErr
 
 bool sb_answers_get(SbAnswers *out, const SbQuestions *asked, GError **error) {
   *out = (SbAnswers){.samples = asked->samples, .figures = asked->figures};
-  out->reason = g_hash_table_new_full(NULL, NULL, NULL, g_free);
+  out->reason = g_hash_table_new_full(NULL, NULL, NULL, (GDestroyNotify)g_ref_string_release);
   out->warnings = g_hash_table_new_full(NULL, NULL, NULL, g_free);
   out->status = malloc(asked->samples + 1);
   out->value = malloc((asked->samples * asked->figures + 1) * sizeof *out->value);

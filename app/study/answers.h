@@ -45,15 +45,19 @@ typedef struct {
   void *data;
 } SbQuestions;
 
+// Largest size of a reason of a sample that was computed [bytes].
+enum { SB_ANSWER_REASON = 8192 };
+
 // SbAnswers.status of a sample that was not computed: of another shard, or cancelled.
 enum { SB_ANSWER_MISSING = 255 };
 
 // The results. Freed by sb_answers_release().
 typedef struct {
   size_t samples, figures;
-  uint8_t *status;      // [samples]: SbStatus or SB_ANSWER_MISSING
-  double *value;        // [samples][figures] [SI]; NaN: none
-  GHashTable *reason;   // GSIZE_TO_POINTER(sample) -> char *, of samples that failed
+  uint8_t *status;    // [samples]: SbStatus or SB_ANSWER_MISSING
+  double *value;      // [samples][figures] [SI]; NaN: none
+  GHashTable *reason; // GSIZE_TO_POINTER(sample) -> char *, of samples that failed or that have no
+                      // value of a figure
   GHashTable *warnings; // the same -> char *, validity codes separated by ";", of samples with any
   size_t computed;      // samples that this call computed
   double seconds;       // time that they took [s]

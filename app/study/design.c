@@ -324,7 +324,7 @@ SbStatus sb_design_run_starts(Start *best, SbDesign *out, const Problem *problem
                               size_t count, int jobs, SbReport *report) {
   Starts starts = {problem, start};
   const SbStatus status = sb_tasks(run_start, &starts, count, jobs, report);
-  *best = (Start){0};
+  *best = start[0];
   size_t feasible = 0;
   for (size_t i = 0; status == SB_OK && i < count; i++) {
     out->evaluations += start[i].evaluations;
@@ -435,10 +435,14 @@ static void judge(SbDesign *out, const View *view) {
   free(row);
 }
 
-static void take_validity(SbDesign *out, const SbStudyFile *study, const SbSummary *summary) {
+static void take_validity(SbDesign *out, const SbStudyFile *study, const SbEvaluator *evaluator) {
+  const SbSummary *summary = sb_evaluator_summary(evaluator);
   for (guint i = 0; i < study->figures->len; i++) {
-    out->error[i] =
-        summary != NULL ? sb_figure_error(summary, g_array_index(study->figures, int, i)) : NAN;
+    const int figure = g_array_index(study->figures, int, i);
+    out->error[i] = summary != NULL ? sb_figure_error(summary, figure) : NAN;
+    g_free(out->reason[i]);
+    out->reason[i] =
+        isfinite(out->figure[i]) ? NULL : g_strdup(sb_evaluator_reason(evaluator, figure));
   }
   g_free(out->warnings);
   out->warnings = summary != NULL ? g_memdup2(&summary->warnings, sizeof summary->warnings) : NULL;
@@ -473,7 +477,7 @@ SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Sta
                                  .cancelled = problem->cancelled,
                                  .data = problem->data};
     status = sb_slopes(out->figure, NULL, evaluator, &asked, out->value, report);
-    take_validity(out, study, sb_evaluator_summary(evaluator));
+    take_validity(out, study, evaluator);
   }
   sb_evaluator_destroy(evaluator);
   free(view.slope);

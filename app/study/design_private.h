@@ -55,8 +55,9 @@ typedef struct {
 SbStatus sb_design_make_starts(Start *start, const Problem *problem, SbReport *report);
 
 // Searches from start[count] on `jobs` threads; each start becomes its result. *best becomes the
-// best of them. Adds to out->evaluations and, if `count` is out->starts (set by the caller), sets
-// out->starts_feasible. Returns SB_OK, SB_ERROR_CANCELLED or SB_ERROR_MEMORY.
+// best of them, or without a `found` one the first. Adds to out->evaluations and, if `count` is
+// out->starts (set by the caller), sets out->starts_feasible. Returns SB_OK, SB_ERROR_CANCELLED or
+// SB_ERROR_MEMORY.
 SbStatus sb_design_run_starts(Start *best, SbDesign *out, const Problem *problem, Start *start,
                               size_t count, int jobs, SbReport *report);
 

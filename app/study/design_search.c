@@ -71,6 +71,8 @@ SbStatus sb_design_search(SbDesign *out, const SbStudyFile *study, int jobs,
   out->value = calloc(study->vary->len + 1, sizeof *out->value);
   out->figure = calloc(study->figures->len + 1, sizeof *out->figure);
   out->error = calloc(study->figures->len + 1, sizeof *out->error);
+  out->reason = g_new0(char *, study->figures->len + 1);
+  out->figures = study->figures->len;
   SbStatus status = SB_OK;
   if (problem == NULL || start == NULL || out->value == NULL || out->figure == NULL ||
       out->error == NULL) {
@@ -98,6 +100,10 @@ void sb_design_release(SbDesign *design) {
   free(design->value);
   free(design->figure);
   free(design->error);
+  for (size_t i = 0; i < design->figures; i++) {
+    g_free(design->reason[i]);
+  }
+  g_free(design->reason);
   g_free(design->warnings);
   *design = (SbDesign){0};
 }

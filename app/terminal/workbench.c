@@ -270,6 +270,7 @@ static void finish(SbBench *bench) {
     g_string_free(bench->pixels, TRUE);
   }
   g_free(bench->message);
+  g_free(bench->lines);
   g_free(bench->orphan);
   g_free(bench->study);
   g_free(bench->study_hash);

@@ -70,8 +70,9 @@ SbCaseVerdict sb_bench_verdict(SbBench *bench, int kind) {
 // "−1.1 N · cold".
 static char *verdict_figure(const SbSummary *summary, int kind, const SbCaseVerdict *verdict) {
   g_autofree char *figure = sb_verdict_figure_text(summary, kind, &verdict->of);
-  return verdict->name == NULL ? g_steal_pointer(&figure)
-                               : g_strdup_printf("%s · %s", figure, verdict->name);
+  return verdict->name == NULL
+             ? g_steal_pointer(&figure)
+             : g_strdup_printf("%s%s%s", figure, figure[0] != '\0' ? " · " : "", verdict->name);
 }
 
 // Returns what is left out for want of room: 0 nothing, 1 figures of verdicts that pass, 2 their
@@ -174,6 +175,25 @@ static char *run_text(SbBench *bench) {
                                                summary->wall_s, told != NULL ? told : "");
 }
 
+// A message in the status line `y`, or if it is longer than `room` columns, wrapped into the rows
+// above.
+static void draw_message(SbBench *bench, int y, int room, const char *message, uint32_t ink) {
+  SbCells *cells = &bench->cells;
+  const SbPen pen = {ink, bench->theme.role[SB_ROLE_PANEL], SB_CELL_BOLD};
+  if (sb_cells_width(cells, message) <= room) {
+    sb_cells_text(cells, 1, y, room, message, pen);
+    return;
+  }
+  // Once to see how long it is, then in its place.
+  const int width = cells->columns - 2, most = y - 3;
+  SbCells page;
+  sb_cells_init(&page, width, most, cells->ascii);
+  const int lines = sb_cells_paragraph(&page, (SbCellRect){0, 0, width, most}, message, pen);
+  sb_cells_finish(&page);
+  sb_cells_fill(cells, (SbCellRect){0, y - lines, cells->columns, lines}, ' ', pen);
+  (void)sb_cells_paragraph(cells, (SbCellRect){1, y - lines, width, lines}, message, pen);
+}
+
 void sb_bench_draw_status(SbBench *bench, int y) {
   SbCells *cells = &bench->cells;
   const int width = cells->columns;
@@ -195,8 +215,8 @@ void sb_bench_draw_status(SbBench *bench, int y) {
   const char *failure = sb_session_failure(bench->session);
   if (bench->message != NULL || failure != NULL) {
     const bool fails = bench->message == NULL || bench->message_fails;
-    sb_cells_text(cells, 1, y, room, bench->message != NULL ? bench->message : failure,
-                  sb_bench_pen(bench, fails ? SB_ROLE_ERROR : SB_ROLE_INK, SB_CELL_BOLD));
+    draw_message(bench, y, room, bench->message != NULL ? bench->message : failure,
+                 bench->theme.role[fails ? SB_ROLE_ERROR : SB_ROLE_INK]);
     return;
   }
   const SbRun *shown = sb_session_run(bench->session);

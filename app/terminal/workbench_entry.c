@@ -16,10 +16,28 @@ void sb_bench_type(SbBench *bench, SbInput input, const char *text) {
   bench->caret = (int)g_utf8_strlen(text, -1);
 }
 
+// Shows lines (of char *) below a heading, over the page.
+static void show_lines(SbBench *bench, const char *heading, const GPtrArray *lines) {
+  GString *text = g_string_new(heading);
+  g_string_append_c(text, '\n');
+  for (guint i = 0; i < lines->len; i++) {
+    g_string_append_printf(text, "\n%s", (const char *)lines->pdata[i]);
+  }
+  g_free(bench->lines);
+  bench->lines = g_string_free(text, FALSE);
+  sb_bench_open_popup(bench, SB_POPUP_LINES);
+}
+
 static void say_issues(SbBench *bench, const GPtrArray *issues) {
-  if (issues->len > 0) {
+  if (issues->len == 1) {
     g_autofree char *line = sb_issue_line(issues->pdata[0]);
     sb_bench_status(bench, true, "%s", line);
+  } else if (issues->len > 1) {
+    g_autoptr(GPtrArray) lines = g_ptr_array_new_with_free_func(g_free);
+    for (guint i = 0; i < issues->len; i++) {
+      g_ptr_array_add(lines, sb_issue_line(issues->pdata[i]));
+    }
+    show_lines(bench, _("The file has problems:"), lines);
   }
 }
 
@@ -139,8 +157,7 @@ void sb_bench_type_key(SbBench *bench, const SbKey *key) {
 // What a merge could not decide by itself.
 static void say_conflicts(SbBench *bench, const GPtrArray *conflicts) {
   if (conflicts->len > 0) {
-    sb_bench_status(bench, false, _("both versions changed %u values, yours are in force: %s"),
-                    conflicts->len, (char *)conflicts->pdata[0]);
+    show_lines(bench, _("Both versions changed these values. Yours are in force:"), conflicts);
   }
 }
 

@@ -289,6 +289,20 @@ static const char *const help[] = {
     N_("q               quit"),
 };
 
+// Appends the warnings, serious ones first.
+static void append_warnings(GString *text, const SbWarnings *warnings) {
+  for (int pass = 1; pass >= 0; pass--) {
+    for (size_t i = 0; i < warnings->count; i++) {
+      const SbWarning *warning = &warnings->item[i];
+      if (warning->serious == (pass == 1)) {
+        g_string_append_printf(text, "%s: %s%s%s%s\n\n", warning->code, warning->text,
+                               warning->input != 0 ? " (" : "", sb_input_key(warning->input),
+                               warning->input != 0 ? ")" : "");
+      }
+    }
+  }
+}
+
 static char *popup_text(SbBench *bench, const char **title) {
   GString *text = g_string_new(NULL);
   const SbSummary *summary = sb_session_summary(bench->session);
@@ -313,16 +327,13 @@ static char *popup_text(SbBench *bench, const char **title) {
     break;
   case SB_POPUP_WARNINGS:
     *title = _("Warnings");
-    for (int pass = 1; summary != NULL && pass >= 0; pass--) {
-      for (size_t i = 0; i < summary->warnings.count; i++) {
-        const SbWarning *warning = &summary->warnings.item[i];
-        if (warning->serious == (pass == 1)) {
-          g_string_append_printf(text, "%s: %s%s%s%s\n\n", warning->code, warning->text,
-                                 warning->input != 0 ? " (" : "", sb_input_key(warning->input),
-                                 warning->input != 0 ? ")" : "");
-        }
-      }
+    if (summary != NULL) {
+      append_warnings(text, &summary->warnings);
     }
+    break;
+  case SB_POPUP_LINES:
+    *title = _("Message");
+    g_string_assign(text, bench->lines);
     break;
   case SB_POPUP_QUIT:
     *title = _("Unsaved changes");

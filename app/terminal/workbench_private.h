@@ -47,6 +47,7 @@ typedef enum {
   SB_POPUP_HELP,
   SB_POPUP_VERDICT,
   SB_POPUP_WARNINGS,
+  SB_POPUP_LINES, // bench->lines
   SB_POPUP_QUIT,
   SB_POPUP_RESTORE,
   SB_POPUP_DISK // another program has changed the file
@@ -77,6 +78,7 @@ typedef struct {
   int popup_scroll;   // lines above the first visible one
   char *message;      // result of the last action; NULL: none
   bool message_fails; // the message states an error
+  char *lines;        // text of SB_POPUP_LINES; NULL: none yet
   gint64 looked;      // time of the last check of the file on disk, g_get_monotonic_time() [us]
   SbDiskState disk;   // state for which the user was last asked to decide
   char *orphan;       // path of unsaved changes of a process that ended, offered to be restored

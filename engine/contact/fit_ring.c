@@ -199,11 +199,16 @@ static SbStatus between_walls(SbRing **ring, SbRingResult *result, const SbRingB
   load->wall_left = -load->wall_right;
   const SbStatus status = sb_ring_fit(ring, result, body, load, options, &out->warnings, report);
   if (status == SB_ERROR_NOT_CONVERGED || status == SB_ERROR_INFEASIBLE) {
+    char least[64] = "widen the groove";
+    if (out->gland_fill > SB_RING_FILL_MOST) {
+      sb_text(least, sizeof least, "the groove must be at least %.4g mm wide",
+              ceil(1e6 * in->gland_width * out->gland_fill / SB_RING_FILL_MOST) / 1e3);
+    }
     return sb_fail_input(
         report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
         "the groove is overfilled: without its second wall the ring is %.3g mm wide in a groove of "
-        "%.3g mm (gland fill %.3g %%), and no state between both walls was found",
-        1e3 * width, 1e3 * in->gland_width, 100.0 * out->gland_fill);
+        "%.3g mm (gland fill %.3g %%), and no state between both walls was found; %s",
+        1e3 * width, 1e3 * in->gland_width, 100.0 * out->gland_fill, least);
   }
   return status;
 }

@@ -215,6 +215,13 @@ def reports():
         expect(read(names[0]) == read(names[1]), True, "report of " + source)
         stream = subprocess.run([program, "report", source, "-o", "-"], capture_output=True, env=dated)
         expect(stream.stdout == read(names[0]), True, "report to a stream")
+        # The kind of the file decides, not its name: the same pages from a name without an ending and a stream.
+        nameless = path("nameless")
+        shutil.copy(source, nameless)
+        for operand, stdin in [(nameless, ""), ("-", open(source).read())]:
+            piped = subprocess.run([program, "report", operand, "-o", "-"], capture_output=True, env=dated, text=False,
+                                   input=stdin.encode())
+            expect((piped.stdout[:5], piped.returncode), (b"%PDF-", 0), f"report {operand} of {source}")
         for heading in headings:
             assert f"/Title ({heading})".encode() in read(names[0]), heading
         assert b"19700102000000Z" in read(names[0])

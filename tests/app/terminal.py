@@ -456,8 +456,46 @@ def test_changed_file():
         terminal.see(r'(?m)^left 0')
 
 
+def test_long_messages():
+    """Messages are wrapped or paged, not cut: all conflicts of a merge, and an error with a long path."""
+    with Terminal() as terminal:
+        path = f'{terminal.folder}/piston.valve'
+        terminal.start('piston.valve')
+        terminal.see(r'│ C +\d')
+        terminal.keys('Enter')
+        terminal.see('Section diameter')
+        terminal.keys('C-u', '1.6', 'Enter')
+        terminal.see(r'Section diameter +1.6 mm')
+        terminal.keys('Down', 'Enter')
+        terminal.see('Inner diameter')
+        terminal.keys('C-u', '2.8', 'Enter')
+        terminal.see(r'Inner diameter +2.8 mm')
+        with open(path, encoding='utf-8') as file:
+            text = file.read()
+        theirs = re.sub(r'(?m)^section_diameter = .*', 'section_diameter = 1.59 mm', text)
+        theirs = re.sub(r'(?m)^inner_diameter = .*', 'inner_diameter = 2.79 mm', theirs)
+        with open(path, 'w', encoding='utf-8') as file:
+            file.write(theirs)
+        terminal.keys('s')
+        terminal.see('Another program has changed the file')
+        terminal.keys('m')
+        screen = terminal.see('Both versions changed these values')
+        for line in ['seal.section_diameter: 1.6 mm (in the file: 1.59 mm)',
+                     'seal.inner_diameter: 2.8 mm (in the file: 2.79 mm)']:
+            assert line in screen, screen
+        terminal.keys('Escape')
+        terminal.see(r'Section diameter +1.6 mm')
+        folder = '/'.join(['no', 'such', 'folder' * 6, 'of', 'any' * 10, 'name'])
+        terminal.keys('S', 'C-u', f'{folder}/x.valve', 'Enter')
+        terminal.see('No such file or directory')
+        terminal.keys('q')
+        terminal.see('Unsaved changes')
+        terminal.keys('d')
+        terminal.see(r'(?m)^left 0')
+
+
 def main():
-    tests = [test_session, test_changed_file, test_export, test_plain, test_signals, test_plots, test_times,
+    tests = [test_session, test_changed_file, test_long_messages, test_export, test_plain, test_signals, test_plots, test_times,
              test_random]
     arguments = ()
     if '--keys' in sys.argv:

@@ -1,6 +1,7 @@
 // Ticks and value formatting against tables, and against hostile ranges.
 #include "app/base/figure_text.h"
 #include "app/draw/axis.h"
+#include "app/session/verdict_text.h"
 
 #include <glib.h>
 #include <locale.h>
@@ -280,6 +281,18 @@ static void test_compared(void) {
   }
 }
 
+// A failure without a value has its reason; it is not "not known".
+static void test_verdict_text(void) {
+  static const SbAnswer answers[] = {SB_ANSWER_NO, SB_ANSWER_UNKNOWN};
+  for (int i = 0; i < 2; i++) {
+    const SbVerdict verdict = {answers[i], sb_figure_find("cycle.force_press_N"), NAN, NAN,
+                               "the stem never moved"};
+    g_autofree SbSummary *summary = g_new0(SbSummary, 1);
+    g_autofree char *text = sb_verdict_figure_text(summary, SB_VERDICT_PRESSES, &verdict);
+    g_assert_cmpstr(text, ==, i == 0 ? "" : "not known");
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/axis/tick-table", test_tick_table);
@@ -290,5 +303,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/format/figures", test_figures);
   g_test_add_func("/format/beyond-limit", test_beyond_limit);
   g_test_add_func("/format/compared", test_compared);
+  g_test_add_func("/format/verdict-text", test_verdict_text);
   return g_test_run();
 }

@@ -194,8 +194,8 @@ static void test_kept(void) {
   cli_clear(&run);
   // The document's own file gives it, and --set changes the other one; unless --set has both.
   write_scene("[stem]\npressure_diameter = 5.7 mm\n");
-  static const char note[] = "note: stem.pressure_diameter stays at the 5.7 mm of the file while "
-                             "bore.diameter changes from 6 mm to 6.2 mm";
+  static const char note[] = "note: stem.pressure_diameter stays at 5.7 mm while bore.diameter "
+                             "changes from 6 mm to 6.2 mm";
   CliResult plan = CLI("plan", path, "--set", "bore.diameter=6.2 mm");
   g_assert_nonnull(strstr(plan.err, note));
   cli_clear(&plan);
@@ -208,8 +208,8 @@ static void test_kept(void) {
     g_autofree char *valve =
         g_build_filename(g_getenv("SEALBENCH_ASSETS"), "scenes", "spring-return.scene", NULL);
     CliResult stays = CLI(commands[i], valve, "--set", "bore.diameter=3.5 mm");
-    g_assert_nonnull(strstr(stays.err, "note: stem.pressure_diameter stays at the 3.2 mm of the "
-                                       "valve's file while bore.diameter changes"));
+    g_assert_nonnull(strstr(stays.err, "note: stem.pressure_diameter stays at 3.2 mm while "
+                                       "bore.diameter changes from 3.4 mm to 3.5 mm"));
     cli_clear(&stays);
     stays = CLI(commands[i], valve, "--set", "bore.diameter=3.5 mm", "--set",
                 "bore.entry_diameter=4.2 mm", "--set", "stem.pressure_diameter=3.3 mm");
@@ -218,12 +218,110 @@ static void test_kept(void) {
   }
 }
 
+// Checks that `check` has this note at this place of a file.
+static void has_note(const char *file, const char *group, const char *key, const char *text) {
+  CliResult check = CLI("check", file, "--json", "-");
+  JsonNode *root = cli_parse(check.out);
+  JsonArray *issues = json_node_get_array(cli_at(root, "files.0.issues"));
+  bool found = false;
+  for (guint i = 0; i < json_array_get_length(issues); i++) {
+    JsonObject *issue = json_array_get_object_element(issues, i);
+    found = found || (g_strcmp0(json_object_get_string_member(issue, "severity"), "note") == 0 &&
+                      g_strcmp0(json_object_get_string_member(issue, "group"), group) == 0 &&
+                      g_strcmp0(json_object_get_string_member(issue, "key"), key) == 0 &&
+                      strstr(json_object_get_string_member(issue, "text"), text) != NULL);
+  }
+  if (!found) {
+    g_error("%s: no note on [%s] %s: %s", file, group, key, check.out);
+  }
+  json_node_unref(root);
+  cli_clear(&check);
+}
+
+// A size that stays is a warning of the run and of each row of a study, and the reason of a verdict
+// that depends on it.
+static void test_kept_results(void) {
+  g_autofree char *valve =
+      g_build_filename(g_getenv("SEALBENCH_ASSETS"), "valves", "spring-return.valve", NULL);
+  g_autofree char *text = g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n"
+                                          "[models]\nfit = karaszkiewicz\nfilm = thesis\n"
+                                          "[bore]\ndiameter = 3.5 mm\nentry_diameter = 4.2 mm\n",
+                                          valve);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  static const char stays[] = "stem.pressure_diameter stays at 3.2 mm while bore.diameter changes "
+                              "from 3.4 mm to 3.5 mm";
+  has_note(path, "stem", "pressure_diameter", stays);
+  CliResult run = CLI("run", path, "--json", "-");
+  JsonNode *root = cli_parse(run.out);
+  JsonArray *warnings = json_node_get_array(cli_at(root, "warnings"));
+  int found = 0;
+  for (guint i = 0; i < json_array_get_length(warnings); i++) {
+    JsonObject *of = json_array_get_object_element(warnings, i);
+    found += strcmp(json_object_get_string_member(of, "code"), "size-kept") == 0 &&
+             strcmp(json_object_get_string_member(of, "parameter"), "stem.pressure_diameter") == 0;
+  }
+  g_assert_cmpint(found, ==, 1);
+  const char *reason = json_node_get_string(cli_at(root, "cycle.verdict.returns.reason"));
+  g_assert_nonnull(strstr(reason, stays));
+  json_node_unref(root);
+  cli_clear(&run);
+  // Rows beyond the tolerance of the bore, 0.02 mm, have the warning; rows that have both sizes
+  // not.
+  g_autofree char *study = g_build_filename(cli.folder, "kept.study", NULL);
+  g_autofree char *store = g_build_filename(cli.folder, "kept.store", NULL);
+  g_autofree char *rows = g_strdup_printf(
+      "[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\n"
+      "bore.diameter = levels 3.4 mm, 3.41 mm, 3.5 mm\nbore.entry_diameter = levels 4.2 mm\n"
+      "[study]\nmethod = grid\nfigures = cycle.force_press_N\n",
+      path);
+  g_assert_true(g_file_set_contents(study, rows, -1, NULL));
+  has_note(study, "vary", "bore.diameter", "stem.pressure_diameter stays at 3.2 mm");
+  CliResult made = CLI("study", study, "--json", "-");
+  root = cli_parse(made.out);
+  g_assert_cmpfloat(cli_number(root, "warnings.size-kept"), ==, 1);
+  json_node_unref(root);
+  cli_clear(&made);
+  g_remove(store);
+  g_remove(study);
+}
+
+// A hardness states its modulus wherever a value may be written.
+static void test_hardness(void) {
+  write_scene("[seal]\nmodulus = 70 IRHD\n[cases]\nsoft = seal.modulus = 40 Shore A\n"
+              "[pins]\nold = seal.modulus = 55 Shore A\n");
+  has_note(path, "seal", "modulus", "70 IRHD is a modulus of 5.38 MPa");
+  has_note(path, "cases", "soft", "40 Shore A is a modulus of 1.69 MPa");
+  has_note(path, "pins", "old", "55 Shore A is a modulus of 2.97 MPa");
+  g_autofree char *study = g_build_filename(cli.folder, "hardness.study", NULL);
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\nseal.modulus = "
+                      "normal 60 Shore A, "
+                      "2 Shore A within 50 Shore A .. 75 IRHD\n[study]\nsamples = 2\n"
+                      "figures = seals.outer.modulus_Pa\n",
+                      path);
+  g_assert_true(g_file_set_contents(study, text, -1, NULL));
+  static const char *const moduli[] = {"60 Shore A is a modulus of 3.61 MPa", "50 Shore A is a",
+                                       "75 IRHD is a modulus of"};
+  CliResult run = CLI("study", study, "--csv", "-");
+  for (size_t i = 0; i < G_N_ELEMENTS(moduli); i++) {
+    has_note(study, "vary", "seal.modulus", moduli[i]);
+    g_assert_nonnull(strstr(run.err, moduli[i]));
+  }
+  g_assert_nonnull(strstr(run.err, "note: cases.soft: 40 Shore A"));
+  cli_clear(&run);
+  g_autofree char *store = g_build_filename(cli.folder, "hardness.store", NULL);
+  g_remove(store);
+  g_remove(study);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   path = g_build_filename(cli.folder, "cases.scene", NULL);
   g_test_add_func("/cases/worst", test_worst);
   g_test_add_func("/cases/kept", test_kept);
+  g_test_add_func("/cases/kept-results", test_kept_results);
+  g_test_add_func("/cases/hardness", test_hardness);
   g_test_add_func("/cases/shown", test_shown);
   g_test_add_func("/cases/failure", test_failure);
   g_test_add_func("/cases/refused", test_refused);

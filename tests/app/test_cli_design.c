@@ -133,11 +133,28 @@ static void test_infeasible(void) {
   g_autoptr(JsonNode) root = cli_parse(result.out);
   cli_clear(&result);
   g_assert_false(json_node_get_boolean(cli_at(root, "feasible")));
+  g_assert_cmpstr(json_node_get_string(cli_at(root, "reasons.optimality")), ==,
+                  "no feasible design was found");
   // Each misses the same part of its bound.
   assert_close(member(root, "margins", RETURN) / 5,
                member(root, "margins", "seals.outer.squeeze") / 0.2, 1e-3);
   g_assert_cmpfloat(member(root, "margins", RETURN), <, 0);
   g_assert_nonnull(json_node_get_string(cli_at(root, "least_violated")));
+  g_unlink(study);
+}
+
+// An objective that no valve has is named with its own reason.
+static void test_objective(void) {
+  g_autofree char *study =
+      write_study(SIZES "[design]\nobjective = minimise life.force_peak_last_N\n");
+  CliResult result = CLI("design", study, "--json", "-");
+  g_assert_cmpint(result.code, ==, 2);
+  static const char reason[] = "life.force_peak_last_N: life.actuations = 1: there is no life";
+  g_assert_nonnull(strstr(result.err, reason));
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "objective")));
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "reasons.objective")), reason));
+  cli_clear(&result);
   g_unlink(study);
 }
 
@@ -250,6 +267,7 @@ int main(int argc, char **argv) {
   cli_set_up();
   g_test_add_func("/cli-design/optimum", test_optimum);
   g_test_add_func("/cli-design/infeasible", test_infeasible);
+  g_test_add_func("/cli-design/objective", test_objective);
   g_test_add_func("/cli-design/robust", test_robust);
   g_test_add_func("/cli-design/marked", test_marked);
   g_test_add_func("/cli-design/told", test_told);

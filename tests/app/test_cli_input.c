@@ -44,6 +44,17 @@ static void test_mistyped(void) {
   SAYS(1, "do you mean persson?", "plan", scene, "--set", "models.surface=person");
 }
 
+// An error of a solver states what is needed, not the range of the catalogue, which the value is
+// in.
+static void test_overfilled(void) {
+  CliResult result = CLI("fit", cli.valve, "--seal", "outer", "--model", "ring", "--set",
+                         "gland.axial_width=1.3 mm");
+  g_assert_cmpint(result.code, ==, 1);
+  g_assert_nonnull(strstr(result.err, "the groove must be at least 1."));
+  g_assert_null(strstr(result.err, "allowed"));
+  cli_clear(&result);
+}
+
 // Help reads the same in every locale, signs of degree and all.
 static void test_help(void) {
   static const char *const commands[] = {"run",     "render",   "plan",  "check",       "fit",
@@ -237,6 +248,7 @@ int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
   g_test_add_func("/cli-input/mistyped", test_mistyped);
+  g_test_add_func("/cli-input/overfilled", test_overfilled);
   g_test_add_func("/cli-input/help", test_help);
   g_test_add_func("/cli-input/percent", test_percent);
   g_test_add_func("/cli-input/standard-input", test_standard_input);

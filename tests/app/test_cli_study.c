@@ -289,6 +289,56 @@ static void test_never_moves(void) {
   g_unlink(scene);
 }
 
+static const char *reason_at(JsonNode *root, const char *path) {
+  JsonObject *reasons = json_node_get_object(cli_at(root, "reasons"));
+  g_assert_true(json_object_has_member(reasons, path));
+  return json_object_get_string_member(reasons, path);
+}
+
+// Each null of a study has its reason: a figure of a row, statistics, a probability of a grid.
+static void test_reasons(void) {
+  g_autofree char *scene = path_of("hand.scene"), *study = path_of("hand.study"),
+                  *store = path_of("hand.store");
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n[drive]\nkind = hand\n"
+                      "peak_force = 45 N\n[models]\nmotion = dynamic\n",
+                      cli.valve);
+  g_assert_true(g_file_set_contents(scene, text, -1, NULL));
+  static const char rest[] = "[sealbench]\nformat = 1\nkind = study\nscene = hand.scene\n[vary]\n"
+                             "friction.static_ratio = levels 1.1, 3\n[study]\nmethod = grid\n"
+                             "figures = cycle.dose_mass_kg\n"
+                             "[limits]\ncycle.force_press_N = <= 40 N\n";
+  g_assert_true(g_file_set_contents(study, rest, -1, NULL));
+  CliResult result = CLI("study", study, "-o", store, "--json", "-");
+  g_assert_cmpint(result.code, ==, 0);
+  g_autoptr(JsonNode) root = cli_parse(result.out);
+  static const char never[] = "cycle.dose_mass_kg: the stem never moved";
+  g_assert_cmpfloat(cli_number(root, "missing.0.sample"), ==, 2);
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(root, "missing.0.reason")), never));
+  g_assert_nonnull(strstr(reason_at(root, "figures.cycle.dose_mass_kg"), "1 of 2 samples"));
+  g_assert_nonnull(strstr(reason_at(root, "limits[0]"), "no probability"));
+  g_assert_nonnull(strstr(reason_at(root, "any_limit"), "no probability"));
+  cli_clear(&result);
+  // The store has it too, and from the store it is the same.
+  CliResult export = CLI("store", "export", store, "--json", "-");
+  g_autoptr(JsonNode) rows = cli_parse(export.out);
+  int found = 0;
+  for (int i = 0; i < 2; i++) {
+    g_autofree char *path = g_strdup_printf("rows.%d.reason", i);
+    JsonNode *reason = cli_at(rows, path);
+    found += !JSON_NODE_HOLDS_NULL(reason) && strstr(json_node_get_string(reason), never) != NULL;
+  }
+  g_assert_cmpint(found, ==, 1);
+  cli_clear(&export);
+  result = CLI("study", study, "-o", store, "--json", "-");
+  g_autoptr(JsonNode) again = cli_parse(result.out);
+  g_assert_nonnull(strstr(json_node_get_string(cli_at(again, "missing.0.reason")), never));
+  cli_clear(&result);
+  g_unlink(store);
+  g_unlink(study);
+  g_unlink(scene);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   cli_set_up();
@@ -299,6 +349,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli-study/told", test_told);
   g_test_add_func("/cli-study/row-is-run", test_row_is_run);
   g_test_add_func("/cli-study/never-moves", test_never_moves);
+  g_test_add_func("/cli-study/reasons", test_reasons);
   const int failed = g_test_run();
   cli_tear_down();
   return failed;

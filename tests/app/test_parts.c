@@ -142,8 +142,9 @@ static void test_weighed(void) {
   g_assert_cmpfloat(sb_document_value(document, SB_P_PART_STEM_CENTRE_MASS), ==, 2e-3);
   const GPtrArray *notes = sb_document_notes(document);
   g_assert_cmpuint(notes->len, ==, 2);
-  g_assert_nonnull(strstr(notes->pdata[0], "part.stem_centre.mass = 2 g applies; the profile"));
-  g_assert_nonnull(strstr(notes->pdata[1], "the section does not draw"));
+  g_assert_nonnull(strstr(((const SbIssue *)notes->pdata[0])->text,
+                          "part.stem_centre.mass = 2 g applies; the profile"));
+  g_assert_nonnull(strstr(((const SbIssue *)notes->pdata[1])->text, "the section does not draw"));
 }
 
 // What follows from a shape is in force again once the own value beside it goes, as it is when the
@@ -191,8 +192,9 @@ static void test_weighed_below(void) {
   bool told = false;
   for (guint i = 0; i < notes->len; i++) {
     // 1000 kg/m3 pi (2 mm)^2 10 mm = 0.12566 g beside 1.47 and 1.14 g.
-    told = told || strstr(notes->pdata[i], "stem.mass = 3.73 g applies; the stem's parts add up to "
-                                           "2.7357 g") != NULL;
+    told = told || strstr(((const SbIssue *)notes->pdata[i])->text,
+                          "stem.mass = 3.73 g applies; the stem's parts add up to "
+                          "2.7357 g") != NULL;
   }
   g_assert_true(told);
   g_remove(scene);
@@ -233,7 +235,8 @@ static void test_mesh(void) {
   // Its section is not drawn, and a note says so.
   const GPtrArray *notes = sb_document_notes(document);
   g_assert_cmpuint(notes->len, ==, 1);
-  g_assert_nonnull(strstr(notes->pdata[0], "the mesh of [part.stem_top] gives mass and moments"));
+  g_assert_nonnull(strstr(((const SbIssue *)notes->pdata[0])->text,
+                          "the mesh of [part.stem_top] gives mass and moments"));
   double m = 8e-6;
   assert_relative(sb_document_value(document, SB_P_PART_STEM_TOP_MASS), m, 1e-10);
   assert_relative(sb_document_value(document, SB_P_PART_STEM_TOP_INERTIA_AXIAL), m * 8e-6 / 12,

@@ -210,7 +210,7 @@ static void test_document(void) {
   g_autofree char *hash = sb_document_sha256(document);
   const GPtrArray *notes = sb_document_notes(document);
   g_assert_cmpuint(notes->len, ==, 2);
-  g_assert_nonnull(strstr(notes->pdata[0], "is 2 mm high"));
+  g_assert_nonnull(strstr(((const SbIssue *)notes->pdata[0])->text, "is 2 mm high"));
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbModel) model = NULL;
   g_assert_true(sb_document_compile(document, &model, issues));
@@ -294,7 +294,8 @@ static void test_document(void) {
                                   "groove.txt\n");
   g_autoptr(SbDocument) grooved = load(grooved_path, 0);
   g_assert_cmpuint(sb_document_notes(grooved)->len, ==, 1);
-  g_assert_nonnull(strstr(sb_document_notes(grooved)->pdata[0], "are 2.2 mm apart"));
+  g_assert_nonnull(
+      strstr(((const SbIssue *)sb_document_notes(grooved)->pdata[0])->text, "are 2.2 mm apart"));
   g_autoptr(SbModel) with_groove = NULL;
   g_assert_true(sb_document_compile(grooved, &with_groove, issues));
   g_assert_cmpint(sb_model_groove(with_groove)->count, ==, 4);

@@ -156,6 +156,7 @@ static void test_limits(void) {
     g_assert_cmpint(sb_fit_solve(&fit, &in, &report), ==, SB_ERROR_INFEASIBLE);
     g_assert_cmpstr(sb_input_key(report.input), ==, "gland.axial_width");
     g_assert_nonnull(strstr(report.text, "overfilled"));
+    g_assert_nonnull(strstr(report.text, "must be at least 1."));
     g_assert_false(fit.valid);
   }
 

@@ -252,12 +252,29 @@ static void test_modulus(void) {
       sb_model_warn(&model, &warnings);
       const bool far = fabs(celsius[k] - 20) > 20;
       g_assert_cmpint(warned(&warnings, "modulus-temperature"), ==, i == 0 && far);
+      g_assert_cmpint(warned(&warnings, "modulus-entropic"), ==, i == 2 && far);
       sb_model_modulus(&change, &model, zero + 60);
       g_assert_cmpfloat_with_epsilon(change.factor, rows[i].factor, 1e-12);
       g_assert_cmpstr(change.tag, ==, rows[i].tag);
       sb_model_modulus(&change, &model, model.temperature);
       assert_close(model.seal[SB_OUTER].modulus, 2.5e6 * change.factor, 1e-12);
     }
+  }
+}
+
+// Entropy elasticity in place of a known slope, as that of nitrile, warns at each temperature at
+// which it changes the modulus.
+static void test_entropic(void) {
+  for (int i = 0; i < 2; i++) {
+    const Setting settings[] = {{SB_P_RUBBER_MODULUS_SLOPE, -1.6e-3},
+                                {SB_P_RUBBER_ENTROPIC, 1},
+                                {SB_P_CANISTER_TEMPERATURE, i == 0 ? 293.15 : 298.15}};
+    SbModel model;
+    SbWarnings warnings = {0};
+    compile(&model, settings, G_N_ELEMENTS(settings));
+    sb_model_warn(&model, &warnings);
+    g_assert_cmpint(warned(&warnings, "modulus-entropic"), ==, i);
+    g_assert_true(i == 0 || strstr(warnings.item[0].text, "-0.16 % per kelvin") != NULL);
   }
 }
 
@@ -415,6 +432,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/temperature/below-ambient", test_below_ambient);
   g_test_add_func("/temperature/expansion", test_expansion);
   g_test_add_func("/temperature/modulus", test_modulus);
+  g_test_add_func("/temperature/entropic", test_entropic);
   g_test_add_func("/temperature/parts", test_parts);
   g_test_add_func("/temperature/doses", test_doses);
   return g_test_run();

@@ -40,6 +40,20 @@ static void test_verdict(void) {
   sb_run_destroy(run);
 }
 
+// Limits on films and times judge the state of the rings, not the force of the user.
+static void test_films(void) {
+  SbModel model;
+  compile(&model, NULL, 0);
+  limit(&model, "seals.inner.film_min_m", 1, INFINITY);
+  limit(&model, "cycle.duration_s", -INFINITY, 1e6);
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  const SbVerdict *of = sb_run_summary(run)->verdict;
+  g_assert_cmpint(of[SB_VERDICT_PRESSES].figure, ==, -1);
+  g_assert_cmpint(of[SB_VERDICT_FITS].ok, ==, SB_ANSWER_NO);
+  g_assert_cmpstr(sb_figure(of[SB_VERDICT_FITS].figure)->path, ==, "seals.inner.film_min_m");
+  sb_run_destroy(run);
+}
+
 // A no before what is unknown before a yes; of two alike the one that is worse by its limit.
 static void test_worse(void) {
   static const struct {
@@ -203,6 +217,7 @@ static void test_uncertain(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/figures/verdict", test_verdict);
+  g_test_add_func("/figures/films", test_films);
   g_test_add_func("/figures/worse", test_worse);
   g_test_add_func("/figures/contradictions", test_contradictions);
   g_test_add_func("/figures/limits-of-return", test_limits_of_return);

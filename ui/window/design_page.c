@@ -4,6 +4,7 @@
 
 #include "app/base/device.h"
 #include "app/base/translation.h"
+#include "app/export/design_results.h"
 #include "app/session/kept_store.h"
 #include "app/session/worker.h"
 #include "ui/views/style.h"
@@ -155,11 +156,12 @@ static char *found_text(const SbDesignAnswer *answer) {
   if (!answer->searched) {
     return g_strdup("");
   }
-  return found->found && !found->feasible
+  if (!found->found) {
+    return sb_design_lacking_text(answer->study, found);
+  }
+  return !found->feasible
              ? g_strdup(
                    _("No start meets all limits: the valve with the smallest violation is shown."))
-         : !found->found
-             ? g_strdup(_("The figures could not be computed at any start (inconsistent values)."))
              : g_strdup_printf(_("%zu of %zu starts meet all limits, %zu evaluations."),
                                found->starts_feasible, found->starts, found->evaluations);
 }

@@ -92,7 +92,7 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   // What shapes in the files said against given values when the document was opened.
   const GPtrArray *notes = sb_document_notes(sb_session_document(bar->session));
   for (guint i = 0; i < notes->len; i++) {
-    g_autofree char *text = g_markup_escape_text(notes->pdata[i], -1);
+    g_autofree char *text = g_markup_escape_text(((const SbIssue *)notes->pdata[i])->text, -1);
     add_status_row(bar, "dialog-information-symbolic", "sb-quiet", text);
   }
   gtk_widget_show_all(bar->list);

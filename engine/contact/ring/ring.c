@@ -116,10 +116,15 @@ static SbStatus check_groove(const SbRingBody *body, const SbRingOutline *outlin
   const double room = load->groove != NULL && isfinite(width)
                           ? sb_groove_drawn_area(load->groove, width, space)
                           : width * space;
-  if (!has_land(load) && isfinite(width) && area > 0.985 * room) {
+  if (!has_land(load) && isfinite(width) && area > SB_RING_FILL_MOST * room) {
+    char least[64] = "";
+    if (load->groove == NULL) {
+      sb_text(least, sizeof least, "; the groove must be at least %.4g mm wide",
+              ceil(1e6 * area / (SB_RING_FILL_MOST * space)) / 1e3);
+    }
     return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_GLAND_WIDTH,
-                         "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2",
-                         1e6 * area, 1e6 * room);
+                         "the groove is overfilled: the section needs %.3g mm2 of %.3g mm2%s",
+                         1e6 * area, 1e6 * room, least);
   }
   return SB_OK;
 }

@@ -85,6 +85,9 @@ typedef struct {
     .groove_share = 1.0                                                                            \
   }
 
+// Largest fraction of a groove's section that the ring's section may be between both walls.
+#define SB_RING_FILL_MOST 0.985
+
 // Element size (SbRingOptions.element_size) for an accuracy of 1 %.
 #define SB_RING_LARGE 0.07
 

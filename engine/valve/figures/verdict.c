@@ -256,4 +256,14 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     }
     sb_verdict_take_worse(&verdict[kind], &of);
   }
+  // A size that stays although another one changed with the drawing changes the forces.
+  SbVerdict *returns = &verdict[SB_VERDICT_RETURNS];
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    char text[SB_TEXT];
+    SbParamId id;
+    if (returns->ok == SB_ANSWER_YES && returns->reason[0] == '\0' &&
+        sb_params_kept(text, &id, &model->params, i)) {
+      sb_message(returns->reason, SB_TEXT, "%s", text);
+    }
+  }
 }

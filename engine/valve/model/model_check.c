@@ -253,8 +253,20 @@ void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings 
   const SbParamId id = SB_P_RUBBER_MODULUS_SLOPE;
   SbParamDefault slope;
   sb_params_default(&slope, &model->params, id);
-  if (!model->rubber.entropic && !model->params.given[id] && slope.from == NULL &&
-      fabs(temperature - SB_SIZES_TEMPERATURE) > NEAR) {
+  const bool measured = model->params.given[id] || slope.from != NULL;
+  const double away = fabs(temperature - SB_SIZES_TEMPERATURE);
+  if (model->rubber.entropic && away > (measured ? 0 : NEAR)) {
+    char ignored[SB_TEXT] = "that of filled nitrile falls by 0.16 % per kelvin";
+    if (measured) {
+      sb_text(ignored, sizeof ignored,
+              "the slope that is known of this rubber, %.3g %% per kelvin, is not used",
+              100 * sb_params_get(&model->params, id));
+    }
+    sb_warn(warnings, "modulus-entropic", sb_input(SB_P_RUBBER_ENTROPIC),
+            "the modulus at %.4g °C is that at 20 °C times the absolute temperature "
+            "(rubber.entropic), as in unfilled gum: %s",
+            temperature - 273.15, ignored);
+  } else if (!model->rubber.entropic && !measured && away > NEAR) {
     sb_warn(warnings, "modulus-temperature", sb_input(id),
             "the modulus at %.4g °C is assumed equal to that at 20 °C (inferred: no measurement of "
             "this "
@@ -264,6 +276,13 @@ void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings 
 }
 
 void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    char text[SB_TEXT];
+    SbParamId id;
+    if (sb_params_kept(text, &id, &model->params, i)) {
+      sb_warn(warnings, "size-kept", sb_input(id), "%s", text);
+    }
+  }
   sb_model_warn_modulus(model, model->temperature, warnings);
   for (int i = 0; i < SB_SEAL_COUNT; i++) {
     SbRubberState ignored;

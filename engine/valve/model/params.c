@@ -122,6 +122,7 @@ int sb_param_find(const char *key) {
 
 void sb_params_init(SbParams *params) {
   params->rubber = NULL;
+  memset(params->drawn, 0, sizeof params->drawn);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     params->value[i] = table[i].fallback;
     params->given[i] = false;
@@ -151,13 +152,13 @@ static bool from_choice(SbParamDefault *out, const SbParams *params, SbParamId i
 }
 
 static const struct {
-  SbParamId id, giver;
-  int kind; // of the valve
+  SbParamId id, giver, tolerance; // tolerance: of the giver
+  int kind;                       // of the valve
   double own, given;
   const char *source;
 } keeps[] = {
 #define SB_KEEPS(id, giver, kind, own, given, source)                                              \
-  {SB_P_##id, SB_P_##giver, kind, own, given, source},
+  {SB_P_##id, SB_P_##giver, SB_P_##giver##_TOLERANCE, kind, own, given, source},
 #include "engine/valve/model/params.def"
 };
 enum { KEEPS = sizeof keeps / sizeof keeps[0] };
@@ -188,6 +189,27 @@ bool sb_param_keeps(SbParamId id, SbParamId giver, int kind) {
     found = found || (keeps[i].id == id && keeps[i].giver == giver && keeps[i].kind == kind);
   }
   return found;
+}
+
+bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind) {
+  *id = keeps[index].id;
+  *giver = keeps[index].giver;
+  return keeps[index].kind == kind;
+}
+
+bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, int index) {
+  SbParamId giver;
+  const bool row = sb_params_keeps(id, &giver, index, (int)sb_params_get(params, SB_P_VALVE_KIND));
+  const double now = sb_params_get(params, giver), drawn = params->drawn[index];
+  const double scatter = sb_params_get(params, keeps[index].tolerance) + 1e-12;
+  if (!row || !params->given[*id] || !(drawn > 0) || fabs(now - drawn) <= scatter) {
+    return false;
+  }
+  sb_text(text, SB_TEXT,
+          "%s stays at %.6g mm while %s changes from %.6g mm to %.6g mm; set it too if the drawing "
+          "changes both",
+          table[*id].key, 1e3 * params->value[*id], table[giver].key, 1e3 * drawn, 1e3 * now);
+  return true;
 }
 
 static bool is_kept(SbParamId id) {
@@ -353,6 +375,7 @@ double sb_params_get(const SbParams *params, SbParamId id) {
 
 void sb_params_resolve(SbParams *effective, const SbParams *given) {
   effective->rubber = given->rubber;
+  memcpy(effective->drawn, given->drawn, sizeof effective->drawn);
   for (int i = 0; i < SB_PARAM_COUNT; i++) {
     effective->value[i] = sb_params_get(given, (SbParamId)i);
     effective->given[i] = given->given[i];
@@ -380,6 +403,9 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
   }
   params->value[id] = value;
   params->given[id] = true;
+  for (size_t i = 0; i < KEEPS; i++) {
+    params->drawn[i] = keeps[i].id == id ? 0 : params->drawn[i];
+  }
   return SB_OK;
 }
 

@@ -166,12 +166,23 @@ typedef struct {
   } figure[SB_RUBBER_FIGURES_MAX];
 } SbRubberSheet;
 
+// Number of rows SB_KEEPS: sizes that follow another size with a constant difference while they are
+// not given.
+enum {
+  SB_KEEPS_COUNT = 0
+#define SB_KEEPS(...) +1
+#include "engine/valve/model/params.def"
+};
+
 // A set of values. Initialise with sb_params_init(); set values with sb_params_set(), and given[id]
 // to false to return to the default.
 typedef struct {
   double value[SB_PARAM_COUNT]; // SI; not used if not given
   const SbRubberSheet *rubber;  // borrowed; NULL: none
   bool given[SB_PARAM_COUNT];
+  // Of each row SB_KEEPS whose size is given: the value [SI] that the followed size has in the
+  // drawing from which this size is; 0: not known. sb_params_set() of the size makes it 0.
+  double drawn[SB_KEEPS_COUNT];
 } SbParams;
 
 // Returns the row of a parameter; static.
@@ -204,6 +215,15 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // Returns whether, in a valve of `kind` (valve.kind), the size `id` follows the size `giver` with a
 // constant difference while it is not given.
 bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
+
+// Row `index` (below SB_KEEPS_COUNT) of SB_KEEPS, in a valve of `kind`: writes the size to *id and
+// the size that it follows to *giver. Returns false if the row is for another kind.
+bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind);
+
+// Returns whether the size of row `index` of SB_KEEPS (*id) stays although the size with which a
+// drawing would change it differs from the drawing (params->drawn) by more than its tolerance, and
+// writes a sentence for the user.
+bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, int index);
 
 // Returns the fluid (a choice of fluid.name) for which the value of the fluid-dependent
 // parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of fluid.figures, or

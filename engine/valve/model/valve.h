@@ -135,7 +135,7 @@ typedef enum {
   SB_VERDICT_RETURNS, // the stem returns by itself, with the required force
   SB_VERDICT_DOSES,   // doses are within limits
   SB_VERDICT_LEAK,    // leakage is within limits
-  SB_VERDICT_FITS,    // sizes of seals and glands are within limits
+  SB_VERDICT_FITS,    // sizes, contacts, films, times are within limits
   SB_VERDICT_COUNT,
   SB_VERDICT_NONE = SB_VERDICT_COUNT // SbFigure.verdict: no limit may be set on this figure
 } SbVerdictKind;
@@ -369,7 +369,8 @@ typedef struct {
 void sb_model_modulus(SbModulusChange *out, const SbModel *model, double temperature);
 
 // Adds the warning "modulus-temperature" if the modulus is assumed to be independent of temperature
-// and typical slopes would change it by more than about 3 % at `temperature` [K].
+// and typical slopes would change it by more than about 3 % at `temperature` [K]; or
+// "modulus-entropic" if entropy elasticity changes it so much, or replaces a known slope.
 void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings *warnings);
 
 // Adds the warnings of the model itself: storage of the rings, fluid.
