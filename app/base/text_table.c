@@ -291,21 +291,39 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 
 // ---- Blocks ----
 
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
-                              const SbTextTableDialect *dialect, const SbTextTableShape *shape) {
-  enum { NAMES_BYTES = 4096 };
-  if (!row) {
-    const SbTextTableShape here = sb_text_table_shape(line, dialect);
-    const int least =
-        dialect->matrix ? 1 : MAX(2, __builtin_popcountll(shape->numeric | shape->clocks) - 1);
-    const bool numbers = !dialect->matrix && (here.numeric | here.clocks) != 0;
-    const bool names = !numbers && __builtin_popcountll(here.texts) >= least && !block->after_row;
-    if (names && !block->after_names) {
-      g_free(block->names);
-      block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
-    }
-    block->after_names = names;
+// Whether a line directly after a row names each column, not all alike as by "OVER"; between
+// blanks, where a remark has as many words, with a unit.
+static bool names_each(const SbTextTable *table, const GString *line) {
+  const SbTextTableShape *rows = &table->file->shape;
+  g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
+  int named = 0;
+  bool alike = true;
+  for (char **cell = cells; *cell != NULL; cell++) {
+    named += **cell != '\0';
+    alike = alike && strcmp(*cell, cells[0]) == 0;
   }
+  return !alike && named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
+         (table->dialect.separator != ' ' || strpbrk(line->str, "[(") != NULL);
+}
+
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
+                              const SbTextTable *table) {
+  enum { NAMES_BYTES = 4096 };
+  bool names = false;
+  if (!row) {
+    const SbTextTableShape here = sb_text_table_shape(line, &table->dialect);
+    const guint64 values = table->file->shape.numeric | table->file->shape.clocks;
+    const bool matrix = table->dialect.matrix;
+    const int least = matrix ? 1 : MAX(2, __builtin_popcountll(values) - 1);
+    const bool numbers = !matrix && (here.numeric | here.clocks) != 0;
+    names = !numbers && __builtin_popcountll(here.texts) >= least &&
+            (!block->after_row || (!matrix && names_each(table, line)));
+  }
+  if (names && !block->after_names) {
+    g_free(block->names);
+    block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
+  }
+  block->after_names = names;
   block->after_row = row;
 }
 
@@ -321,7 +339,7 @@ static void find_block(SbTextTable *table, const Sample *sample) {
     const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
     const bool row =
         is_row(&shape, &table->dialect) && same_shape(&shape, &table->file->shape, &table->dialect);
-    sb_text_table_block_next(&block, row, line, &table->dialect, &table->file->shape);
+    sb_text_table_block_next(&block, row, line, table);
     if (!row) {
       continue;
     }

@@ -9,10 +9,10 @@
 // that begin with #, % or ! are comments.
 //
 // The table is the longest block of rows with the same cells. A line of names above rows begins a
-// block, except directly after a row; blocks under the same line are one. Other rows, such as those
-// of a results table, are not read. The lines above the table are its header: its last ones give
-// names and units. A unit is in brackets, follows "in", "/", "_" or a blank, or is in a line of
-// units.
+// block, directly after a row if it names each column; blocks under the same line are one. Other
+// rows, such as those of a results table, are not read. The lines above the table are its header:
+// its last ones give names and units. A unit is in brackets, follows "in", "/", "_" or a blank, or
+// is in a line of units.
 //
 // An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
 // interpretations in the message. The file stays open and is read piece by piece, so that memory is

@@ -90,10 +90,6 @@ typedef struct {
   bool after_row, after_names;
 } SbTextTableBlock;
 
-// Moves to the next line: `row` states whether it is a row like those of `shape`.
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
-                              const SbTextTableDialect *dialect, const SbTextTableShape *shape);
-
 // Where a table is read from.
 typedef struct SbTextTableFile {
   char *shown; // the file, for messages
@@ -102,6 +98,10 @@ typedef struct SbTextTableFile {
   SbTextTableShape shape; // of its rows
   char *names;            // line of names above its rows, as in the file; NULL: none
 } SbTextTableFile;
+
+// Moves to the next line: `row` states whether it is a row of the table.
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
+                              const SbTextTable *table);
 
 // Fills the table's header, and names and units of its columns, from the lines line[count] (of
 // GString) above its rows.

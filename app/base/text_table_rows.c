@@ -110,7 +110,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     other = line.cells != table->columns && (other || (blank && line.cells > 0));
     blank = line.cells == 0;
     const bool like = line.good && line.any && !other;
-    sb_text_table_block_next(&block, like, text, &table->dialect, &table->file->shape);
+    sb_text_table_block_next(&block, like, text, table);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
       if (wrong == NULL && out->rows == room) {
         wrong = make_room(value, count, &room);
