@@ -143,6 +143,7 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
       shape.texts |= bit;
     }
     shape.cells = cell.length > 0 ? i + 1 : shape.cells;
+    shape.span = i + 1;
   }
   return shape;
 }
@@ -154,7 +155,7 @@ static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
   if (dialect->matrix) {
     return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 && a->decimals == b->decimals;
   }
-  return a->cells == b->cells && (a->texts & (b->numeric | b->clocks)) == 0 &&
+  return a->cells <= b->span && b->cells <= a->span && (a->texts & (b->numeric | b->clocks)) == 0 &&
          (b->texts & (a->numeric | a->clocks)) == 0 && (a->numeric & b->clocks) == 0 &&
          (b->numeric & a->clocks) == 0;
 }
@@ -182,6 +183,7 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
       seen[count++] = shape;
     }
     seen[at].cells = MAX(seen[at].cells, shape.cells);
+    seen[at].span = MAX(seen[at].span, shape.span);
     seen[at].numeric |= shape.numeric;
     seen[at].clocks |= shape.clocks;
     seen[at].texts |= shape.texts;
@@ -337,8 +339,8 @@ static void find_block(SbTextTable *table, const Sample *sample) {
   for (size_t i = 0; i < sample->head; i++) {
     const GString *line = sample->line->pdata[i];
     const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
-    const bool row =
-        is_row(&shape, &table->dialect) && same_shape(&shape, &table->file->shape, &table->dialect);
+    const bool row = (shape.numeric | shape.clocks) != 0 &&
+                     same_shape(&shape, &table->file->shape, &table->dialect);
     sb_text_table_block_next(&block, row, line, table);
     if (!row) {
       continue;

@@ -159,12 +159,15 @@ static bool are_units(char *const *cells) {
   return known > 0 && 2 * known > texts;
 }
 
-// Whether a header line can name the columns: it has a text for nearly all that have numbers.
+// Whether a header line can name the columns: it has a text for nearly all that have numbers, and
+// is not a row itself that has no value in one of them.
 static bool names_columns(const SbTextTable *table, char *const *cells) {
   size_t texts = 0, numbers = 0, count = 0;
+  double value;
   for (; cells[count] != NULL; count++) {
     const SbTextTableCell cell = {cells[count], strlen(cells[count])};
-    texts += count < table->columns && !sb_text_table_void(&cell);
+    texts += count < table->columns && !sb_text_table_void(&cell) &&
+             !sb_text_table_number(&value, &cell, &table->dialect, NULL);
   }
   for (size_t i = 0; i < table->columns; i++) {
     numbers += table->column[i].numeric || table->column[i].clock;

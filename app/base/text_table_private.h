@@ -76,6 +76,7 @@ bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates);
 // Kinds of a line's cells, a bit each.
 typedef struct {
   size_t cells;    // of a matrix all; else at most SB_TEXT_TABLE_COLUMNS_MAX
+  size_t span;     // cells with the empty ones at the end
   size_t decimals; // number of digits behind each mark, with SB_TEXT_TABLE_PAIRS; else 0
   guint64 numeric, clocks, texts; // bit k: cell k is a number, a time of day, a text
   unsigned saw;                   // marks of the numbers

@@ -277,6 +277,9 @@ static void test_habits(void) {
        "OVER,OVER,OVER\n,,\nNo,Peak (N),Ext (mm)\n1,900.0,800.0\n", '.', 1, 1},
       {"No. Peak (N) Ext (mm)\n1 35.1 16.2\nTime (s) Ext (mm) Load (N)\n", "@t @x @f\n",
        "end of test\n", '.', 1, 1},
+      // No value in the last column of the first row.
+      {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
+      {"Time (s),Ext (mm),Load (N)\n0.00,0.0,OVER\n", "@t,@x,@f\n", "", '.', 1, 1},
       // Gram-force, inches by their sign, doubled ends of lines.
       {"Distance (\"),Force (g),Time (s)\r\r\n", "@x,@f,@t\r\r\n", "", '.', 1 / 9.80665e-3,
        1 / 25.4},
