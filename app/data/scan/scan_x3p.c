@@ -152,7 +152,6 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
                         GError **error) {
   static const char types[] = "ILFD";
   static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
-  static const guint64 sizes[] = {2, 4, 4, 8};
   const char *link = text_of(texts, "record3/datalink/pointdatalink");
   const char *feature = text_of(texts, "record1/featuretype"),
              *type = text_of(texts, "record1/axes/cz/datatype");
@@ -182,9 +181,9 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
     return sb_app_error_input(error, "CZ has the increment \"%s\"",
                               text_of(texts, "record1/axes/cz/increment"));
   }
-  const guint64 points = (guint64)columns * (guint64)rows, size = points * sizes[known - types];
+  const guint64 points = (guint64)columns * (guint64)rows;
   guint64 got = 0, valid_got = 0;
-  g_autofree guchar *data = member(zip, link, &got, size, packed, error);
+  g_autofree guchar *data = member(zip, link, &got, 8 * points, packed, error);
   g_autofree guchar *valid = NULL;
   if (data == NULL) {
     return false;
