@@ -65,7 +65,8 @@ typedef struct {
 // A table. All but names and units of columns is read-only.
 typedef struct {
   SbTextTableDialect dialect;
-  char **header;       // lines above the first row as UTF-8, without comment signs, ended by NULL
+  char **header;       // lines above the first row as UTF-8, without comment signs and with ; for
+                       // tabs, ended by NULL
   size_t header_lines; // number of lines before the first row
   size_t columns;
   SbTextTableColumn column[SB_TEXT_TABLE_COLUMNS_MAX]; // [columns]

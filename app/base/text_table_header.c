@@ -220,7 +220,7 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
   for (size_t i = 0; i < MIN(count, HEADER_LINES); i++) {
     g_autofree char *copy = g_strndup(line[i]->str, MIN(line[i]->len, HEADER_BYTES));
     char *text = copy + strspn(copy, "#;%!/ \t");
-    g_strdelimit(text, "\t", ' ');
+    g_strdelimit(text, "\t", ';');
     g_ptr_array_add(texts, sb_printable(text, strlen(text)));
   }
   g_ptr_array_add(texts, NULL);
