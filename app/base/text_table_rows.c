@@ -78,19 +78,18 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   const GString *text;
   // A row has two bytes at least. Memory that is not written to does not count.
   const size_t room = MIN(lines->length / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
+  size_t begun = 0; // blocks behind blank lines
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "there is no memory for its rows" : wrong;
   }
-  size_t begun = 0; // blocks behind blank lines
   bool blank = false, other = false;
   sb_text_table_seek(lines, 0);
   while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
+    Line line = {0};
     if ((size_t)lines->number <= table->header_lines) {
       continue;
-    }
-    Line line = {0};
-    if (text->len > 0 && strspn(text->str, "#%!") == 0) {
+    } else if (text->len > 0 && strspn(text->str, "#%!") == 0) {
       wrong = read_line(&line, row, days, table, column, count, text);
     }
     begun += blank && line.cells > 0;
@@ -116,16 +115,13 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     }
   }
   wrong = wrong != NULL ? wrong : lines->wrong;
-  for (size_t k = 0; k < count && wrong == NULL; k++) {
-    value[k] = g_renew(double, value[k], MAX(out->rows, 1));
+  for (size_t k = 0; k < count; k++) { // freed where its size becomes 0
+    value[k] = g_renew(double, value[k], wrong == NULL ? MAX(out->rows, 1) : 0);
   }
   if (wrong != NULL) {
     const bool date = wrong == ambiguous_date;
     sb_issues_add_choice(issues, table->file->shown, lines->number, date ? "dates" : NULL,
                          date ? "day-month\nmonth-day" : NULL, !date, "%s", wrong);
-    for (size_t k = 0; k < count; k++) {
-      g_clear_pointer(&value[k], g_free);
-    }
     g_clear_pointer(&out->left_text, g_free);
   }
   g_free(block.names);
