@@ -244,10 +244,10 @@ static bool read_file(Drawing *drawing, GError **error) {
   bool named = false, sections = false, good = true;
   while (good) {
     const SbDxfItem item = reader.next;
-    if (!sb_dxf_read_pair(&reader, error)) {
+    const char *value = reader.value;
+    if (!sb_dxf_read_pair(&reader, error) || (reader.code == 0 && strcmp(value, "EOF") == 0)) {
       break;
     }
-    const char *value = reader.value;
     if (reader.code == 0) {
       named = strcmp(value, "SECTION") == 0;
       sections = sections || named;

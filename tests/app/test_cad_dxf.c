@@ -370,6 +370,7 @@ static void test_units(void) {
     if (i % 2 == 0) {
       g_string_replace(dxf, "\n", "", 0);
     }
+    g_string_append(dxf, i == 1 ? "\n\n\x1a" : ""); // behind the end
     g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
     const SbCadBody *body = cad->bodies->pdata[0];
     g_test_message("%s", cad->unit);
