@@ -403,12 +403,13 @@ static GPtrArray *find_outlines(SbCad *cad, const GArray *pieces, const char *na
 
 // Returns whether a profile has no area: it is as thin as ends that are one point are far apart.
 static bool is_degenerate(const GArray *profile, double gap) {
+  const SbProfile points = {(void *)profile->data, profile->len, true};
   double length = 0;
   for (guint i = 1; i < profile->len; i++) {
     const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i - 1), *q = p + 1;
     length += hypot(q->x - p->x, q->r - p->r);
   }
-  return fabs(sb_profile_area(profile)) <= gap * length;
+  return profile->len < 2 || fabs(sb_profile_area(&points)) <= gap * length;
 }
 
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {

@@ -182,6 +182,12 @@ static void moments_of(Moments *m, const SbProfile *p, double origin) {
   }
 }
 
+double sb_profile_area(const SbProfile *p) {
+  Moments m;
+  moments_of(&m, p, p->point[0].x);
+  return m.area;
+}
+
 SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
   if (p->count < 2 || p->count > SB_PROFILE_MAX) {
     return sb_fail(report, SB_ERROR_INPUT, "a profile has 2 to %d points, not %zu", SB_PROFILE_MAX,

@@ -37,6 +37,10 @@ typedef struct {
                         // diagonal minus the products of inertia
 } SbSolid;
 
+// Returns the area [m2] in an outline of at least 2 points, which need not be counter-clockwise:
+// then the area is negative.
+double sb_profile_area(const SbProfile *profile);
+
 // Checks an outline. SB_ERROR_INPUT: it does not bound a body (open, crosses itself, clockwise,
 // below the axis, zero area); the report names the fault and the piece (counted from 0).
 SbStatus sb_profile_check(const SbProfile *profile, SbReport *report);
