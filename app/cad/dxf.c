@@ -34,14 +34,15 @@ typedef struct {
 } Block;
 
 typedef struct {
-  SbDxfReader text;     // at its start
-  Block *model;         // the section ENTITIES
-  GHashTable *blocks;   // name in lower case -> Block
-  GHashTable *hidden;   // name of a layer in lower case -> why it is not seen
-  GPtrArray *names;     // of the layers with pieces, in order of appearance
-  GPtrArray *layers;    // of GArray of SbCadPiece [m], in the order of `names`
-  GHashTable *left_out; // type and reason -> count
-  GArray *centre;       // of SbCadPiece [m]: centre lines
+  SbDxfReader text;       // at its start
+  Block *model;           // the section ENTITIES
+  GHashTable *blocks;     // name in lower case -> Block
+  GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
+  GHashTable *line_types; // the same -> its type of lines
+  GPtrArray *names;       // of the layers with pieces, in order of appearance
+  GPtrArray *layers;      // of GArray of SbCadPiece [m], in the order of `names`
+  GHashTable *left_out;   // type and reason -> count
+  GArray *centre;         // of SbCadPiece [m]: centre lines
   guint pieces, items, placed;
   char *unit;   // owned; NULL: not known
   double scale; // its length [m]
@@ -49,16 +50,28 @@ typedef struct {
 
 // ---- Placing ----
 
-static bool is_centre_line(const SbDxfEntity *entity) {
-  return sb_dxf_is(entity, "LINE") && (g_ascii_strncasecmp(entity->line_type, "center", 6) == 0 ||
-                                       g_ascii_strncasecmp(entity->layer, "axis", 4) == 0 ||
-                                       g_ascii_strncasecmp(entity->layer, "cent", 4) == 0);
-}
-
 // Returns the value of a name in any case.
 static gpointer find(GHashTable *table, const char *name) {
   g_autofree char *key = g_ascii_strdown(name, -1);
   return g_hash_table_lookup(table, key);
+}
+
+// Returns whether an entity on `layer` is a line whose type, or the layer's, or the layer's name
+// begins as those of centre lines do.
+static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer) {
+  static const char *const starts[] = {"cent",    "mitte",      "strichp",    "chain", "axis",
+                                       "axe",     "achs",       "asse",       "eje",   "am_7",
+                                       "dashdot", "acad_iso04", "acad_iso10", "iso04", "iso10"};
+  const bool by_layer =
+      *entity->line_type == '\0' || g_ascii_strcasecmp(entity->line_type, "bylayer") == 0;
+  const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
+  bool centre = false;
+  for (size_t i = 0; i < G_N_ELEMENTS(starts); i++) {
+    const size_t length = strlen(starts[i]);
+    centre = centre || g_ascii_strncasecmp(layer, starts[i], length) == 0 ||
+             (type != NULL && g_ascii_strncasecmp(type, starts[i], length) == 0);
+  }
+  return centre && sb_dxf_is(entity, "LINE");
 }
 
 // Counts an entity that was not read, with the reason ("" or " in paper space").
@@ -163,7 +176,7 @@ static bool place_entity(Drawing *drawing, const SbDxfEntity *entity, const SbDx
     count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
   }
-  return add_pieces(drawing, on, is_centre_line(entity), pieces, error);
+  return add_pieces(drawing, on, is_centre_line(drawing, entity, on), pieces, error);
 }
 
 // Places all entities of a block; `layer` of its INSERT.
@@ -218,6 +231,7 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
       const bool frozen = ((int)entity.number[70] & 1) != 0;
       const char *state = frozen ? "frozen" : entity.number[62] < 0 ? "off" : NULL;
       g_hash_table_replace(drawing->hidden, key, (char *)state);
+      g_hash_table_replace(drawing->line_types, g_strdup(key), g_strdup(entity.line_type));
     } else {
       *open = g_new0(Block, 1);
       (*open)->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
@@ -392,6 +406,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .model = &model,
       .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
       .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+      .line_types = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
       .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref),
@@ -414,6 +429,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
   g_array_unref(model.items);
   g_hash_table_unref(drawing.blocks);
   g_hash_table_unref(drawing.hidden);
+  g_hash_table_unref(drawing.line_types);
   g_hash_table_unref(drawing.left_out);
   g_ptr_array_unref(drawing.names);
   g_ptr_array_unref(drawing.layers);

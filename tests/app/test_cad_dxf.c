@@ -290,6 +290,42 @@ static void test_left_out(void) {
                   "that is invisible, 1 SPLINE with fit points only");
 }
 
+// The centre line, 1 mm below the origin, is known by its type, its layer's type or its layer's
+// name.
+static void test_centre_line(void) {
+  static const struct {
+    const char *layer, *type, *layer_type;
+  } lines[] = {{"0", "CENTER2", ""},
+               {"0", "ACAD_ISO10W100", ""},
+               {"0", "STRICHPUNKT", ""},
+               {"thin", "BYLAYER", "CENTER"},
+               {"thin", "", "DASHDOT"},
+               {"Mittellinie", "", ""},
+               {"Achse", "", "CONTINUOUS"},
+               {"AM_7", "", ""},
+               {"axe", "", ""}};
+  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    const gsize at = (gsize)(strstr(dxf->str, "  0\r\nSECTION\r\n  2\r\nENTITIES") - dxf->str);
+    g_autoptr(GString) tables = g_string_new(NULL);
+    drawing_put(tables, 0, "SECTION");
+    drawing_put(tables, 2, "TABLES");
+    drawing_put(tables, 0, "LAYER");
+    drawing_put(tables, 2, "%s", lines[i].layer);
+    drawing_put(tables, 6, "%s", lines[i].layer_type);
+    drawing_put(tables, 0, "ENDSEC");
+    g_string_insert(dxf, (gssize)at, tables->str);
+    put_square(dxf, "part", 0);
+    drawing_line(dxf, lines[i].layer, -5, -1, 15, -1);
+    drawing_put(dxf, 6, "%s", lines[i].type);
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 24), 1, 1e-9);
+  }
+}
+
 // Lines drawn twice, also in part and the other way round, lines of no length, gaps, and circles
 // that touch the axis.
 static void test_untidy(void) {
@@ -388,6 +424,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/coordinates", test_coordinates);
   g_test_add_func("/cad/spline-corners", test_spline_corners);
   g_test_add_func("/cad/left-out", test_left_out);
+  g_test_add_func("/cad/centre-line", test_centre_line);
   g_test_add_func("/cad/untidy", test_untidy);
   g_test_add_func("/cad/units", test_units);
   return g_test_run();
