@@ -299,12 +299,10 @@ static bool names_each(const SbTextTable *table, const GString *line) {
   const SbTextTableShape *rows = &table->file->shape;
   g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
   int named = 0;
-  bool alike = true;
   for (char **cell = cells; *cell != NULL; cell++) {
-    named += **cell != '\0';
-    alike = alike && strcmp(*cell, cells[0]) == 0;
+    named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
   }
-  return !alike && named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
+  return named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
          (table->dialect.separator != ' ' || strpbrk(line->str, "[(") != NULL);
 }
 

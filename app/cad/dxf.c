@@ -9,6 +9,7 @@
 #include "app/base/error.h"
 #include "app/base/unit.h"
 #include "app/cad/dxf_private.h"
+#include "app/cad/dxf_words.def"
 
 #include <math.h>
 
@@ -59,19 +60,17 @@ static gpointer find(GHashTable *table, const char *name) {
 // Returns whether an entity on `layer` is a line whose type, or the layer's, or the layer's name
 // begins as those of centre lines do.
 static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer) {
-  static const char *const starts[] = {"cent",    "mitte",      "strichp",    "chain", "axis",
-                                       "axe",     "achs",       "asse",       "eje",   "am_7",
-                                       "dashdot", "acad_iso04", "acad_iso10", "iso04", "iso10"};
+  g_auto(GStrv) starts = g_strsplit(SB_DXF_CENTRE, "|", -1);
   const bool by_layer =
       *entity->line_type == '\0' || g_ascii_strcasecmp(entity->line_type, "bylayer") == 0;
   const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
   bool centre = false;
-  for (size_t i = 0; i < G_N_ELEMENTS(starts); i++) {
+  for (size_t i = 0; sb_dxf_is(entity, "LINE") && starts[i] != NULL; i++) {
     const size_t length = strlen(starts[i]);
     centre = centre || g_ascii_strncasecmp(layer, starts[i], length) == 0 ||
              (type != NULL && g_ascii_strncasecmp(type, starts[i], length) == 0);
   }
-  return centre && sb_dxf_is(entity, "LINE");
+  return centre;
 }
 
 // Counts an entity that was not read, with the reason ("" or " in paper space").
@@ -209,12 +208,6 @@ static void block_free(gpointer data) {
   g_free(block);
 }
 
-// Names of $INSUNITS for udunits-2, from 1. The inch of the US survey (22), which udunits-2 does
-// not know, is longer than the inch by 2e-6.
-#define UNITS                                                                                      \
-  "inch|foot|mile|mm|cm|m|km|uin|mil|yard|angstrom|nm|um|dm|dam|hm|Gm|astronomical_unit|"          \
-  "light_year|parsec|US_survey_foot|inch|US_survey_yard|US_survey_mile"
-
 // Reads a record of a section at `item`: a layer, the begin or end of a block, an entity.
 static bool read_record(Drawing *drawing, const char *section, const char *type,
                         const SbDxfItem *item, Block **open, GError **error) {
@@ -280,7 +273,7 @@ static bool read_file(Drawing *drawing, GError **error) {
     } else if (strcmp(variable, "$INSUNITS") == 0 && reader.code == 70) {
       double number = 0;
       good = sb_dxf_number(&reader, &number, error);
-      g_auto(GStrv) units = g_strsplit(UNITS, "|", -1);
+      g_auto(GStrv) units = g_strsplit(SB_DXF_UNITS, "|", -1);
       if (good && drawing->unit == NULL && number >= 1 && number <= g_strv_length(units)) {
         drawing->unit = g_strdup(units[(int)number - 1]);
       }

@@ -26,12 +26,11 @@ bool sb_scan_parse_sdf(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   static const gsize place[KEYS] = {42, 44, 46, 54, 62, 78, 79};
   static const gsize size[KEYS] = {2, 2, 8, 8, 8, 1, 1};
   double value[KEYS];
-  if (*bytes.at == 'a') {
-    const bool good = read_text(out, bytes, choices, error);
-    out->format = "surface data file";
+  const bool text = *bytes.at == 'a', good = text && read_text(out, bytes, choices, error);
+  out->format = "surface data file";
+  if (text) {
     return good;
   }
-  out->format = "surface data file";
   if (bytes.end - bytes.at < HEADER) {
     return sb_app_error_input(error, "is cut short: no header of %d bytes", HEADER);
   }

@@ -7,17 +7,9 @@
 
 enum { ENTRIES_MAX = 1000 };
 
-// Keys of headers.
-typedef enum {
-#define SB_SCAN_KEY(name, expression) KEY_##name,
+#define SB_SCAN_KEY(name, expression) static const char KEY_##name[] = expression;
 #include "app/data/scan/scan_text_keys.def"
 #undef SB_SCAN_KEY
-} Key;
-static const char *const expressions[] = {
-#define SB_SCAN_KEY(name, expression) expression,
-#include "app/data/scan/scan_text_keys.def"
-#undef SB_SCAN_KEY
-};
 
 // ---- Header ----
 
@@ -27,11 +19,6 @@ static void entry_free(gpointer data) {
   g_free(entry->key);
   g_free(entry->value);
   g_free(entry);
-}
-
-static char *replaced(const char *text, const char *pattern, const char *by) {
-  g_autoptr(GRegex) regex = g_regex_new(pattern, 0, 0, NULL);
-  return g_regex_replace_literal(regex, text, -1, 0, by, 0, NULL);
 }
 
 // Appends the entry of a header line: "Width: 5 µm", "Z factor;2.5", "Length,64 µm", "ncols 512".
@@ -57,8 +44,10 @@ static void take_entry(GPtrArray *entries, const char *line, int number,
   *bracket = entry->unit > 0 ? '\0' : *bracket;
   g_autofree char *folded = g_utf8_strdown(key, -1);
   entry->line = number;
-  entry->name = g_strstrip(replaced(folded, "[^\\pL\\pN]+", " "));
-  entry->key = replaced(entry->name, " ", "");
+  g_autoptr(GRegex) marks = g_regex_new("[^\\pL\\pN]+", 0, 0, NULL);
+  entry->name = g_strstrip(g_regex_replace_literal(marks, folded, -1, 0, " ", 0, NULL));
+  g_auto(GStrv) words = g_strsplit(entry->name, " ", -1);
+  entry->key = g_strjoinv("", words);
   entry->value = g_strstrip(g_strdelimit(g_strdup(value), ";|", ' '));
   const gsize end = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
   entry->number = end > 0 ? entry->number : NAN;
@@ -70,18 +59,14 @@ static void take_entry(GPtrArray *entries, const char *line, int number,
   g_ptr_array_add(entries, entry);
 }
 
-static bool matches(Key key, const char *text) {
-  return g_regex_match_simple(expressions[key], text, 0, 0);
-}
-
 // Returns the first entry that a key matches, an empty one without; of a `length` the first with a
 // unit, else the first number that is not one of points.
-static const SbScanEntry *find(const SbScanText *text, Key key, bool length) {
+static const SbScanEntry *find(const SbScanText *text, const char *key, bool length) {
   static const SbScanEntry none = {(char *)"", (char *)"", (char *)"", NAN, 0, 0};
   const SbScanEntry *found = &none;
   for (guint i = 0; i < text->entries->len; i++) {
     const SbScanEntry *entry = text->entries->pdata[i];
-    const bool fits = matches(key, entry->key);
+    const bool fits = g_regex_match_simple(key, entry->key, 0, 0);
     if (fits && (!length || entry->unit > 0)) {
       return entry;
     }
@@ -142,10 +127,13 @@ static bool take_factor(Header *h, const SbScanText *text, const SbScanChoices *
   const SbScanEntry *factor = NULL, *doubt = NULL;
   for (guint i = 0; i < text->entries->len && factor == NULL; i++) {
     const SbScanEntry *entry = text->entries->pdata[i];
-    if (isfinite(entry->number) && entry->number != 0 && !matches(KEY_OTHER, entry->name)) {
-      factor = matches(KEY_FACTOR, entry->name) ? entry : NULL;
-      doubt =
-          doubt == NULL && entry->number != 1 && matches(KEY_PERHAPS, entry->name) ? entry : doubt;
+    if (isfinite(entry->number) && entry->number != 0 &&
+        !g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
+      factor = g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
+      doubt = doubt == NULL && entry->number != 1 &&
+                      g_regex_match_simple(KEY_PERHAPS, entry->name, 0, 0)
+                  ? entry
+                  : doubt;
     }
   }
   if (factor == NULL && doubt != NULL && choices->unit == 0) {

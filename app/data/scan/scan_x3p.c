@@ -18,21 +18,20 @@ enum { XML_MAX = 1 << 20 };
 // Takes the text of an element: path after the root, without name spaces, in lower case -> text.
 static void on_text(GMarkupParseContext *context, const char *text, gsize length, gpointer user,
                     GError **error) {
-  enum { DEPTH = 6 };
+  enum { DEPTH = 6 }; // deeper elements are not read
   GHashTable *texts = user;
-  const char *names[DEPTH + 1] = {NULL};
-  int count = 0;
-  // The stack begins with the element itself and ends with the root.
-  for (const GSList *at = g_markup_parse_context_get_element_stack(context);
-       at != NULL && at->next != NULL; at = at->next) {
-    if (count == DEPTH) {
-      return; // deeper than what is read
-    }
-    const char *name = at->data, *colon = strchr(name, ':');
-    names[DEPTH - ++count] = colon != NULL ? colon + 1 : name;
+  g_autoptr(GString) path = g_string_new(NULL);
+  const GSList *at = g_markup_parse_context_get_element_stack(context);
+  if (g_slist_nth((GSList *)at, DEPTH + 1) != NULL) {
+    return;
   }
-  g_autofree char *path = g_strjoinv("/", (char **)names + DEPTH - count);
-  g_autofree char *key = g_ascii_strdown(path, -1);
+  // The stack begins with the element itself and ends with the root.
+  for (; at != NULL && at->next != NULL; at = at->next) {
+    const char *name = at->data, *colon = strchr(name, ':');
+    g_string_prepend(path, path->len > 0 ? "/" : "");
+    g_string_prepend(path, colon != NULL ? colon + 1 : name);
+  }
+  g_autofree char *key = g_ascii_strdown(path->str, -1);
   if (!g_hash_table_contains(texts, key)) {
     g_hash_table_insert(texts, g_steal_pointer(&key), g_strstrip(g_strndup(text, length)));
   }
