@@ -29,12 +29,11 @@ static double length_of(const SbCadPiece *piece) {
 static bool closes(const GArray *chain, double gap) {
   const SbCadPiece *first = &g_array_index(chain, SbCadPiece, 0);
   const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
-  bool good = hypot(last->x1 - first->x0, last->y1 - first->y0) <= gap;
   double length = 0;
-  for (guint i = 0; good && length <= 2 * gap && i < chain->len; i++) {
+  for (guint i = 0; length <= 2 * gap && i < chain->len; i++) {
     length += length_of(&g_array_index(chain, SbCadPiece, i));
   }
-  return good && length > 2 * gap;
+  return length > 2 * gap && hypot(last->x1 - first->x0, last->y1 - first->y0) <= gap;
 }
 
 // Appends the unused piece with the end that is nearest to the end of `chain`, turned to begin
@@ -419,6 +418,7 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
     return;
   }
   guint doubled = 0, made = 0;
+  const guint first = cad->bodies->len;
   g_autoptr(GArray) single = tidied(pieces, fmin(gap, DOUBLED), &doubled);
   g_autoptr(GPtrArray) outlines = find_outlines(cad, single, name, gap);
   if (doubled > 0) {
@@ -440,6 +440,7 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
     }
     g_autofree char *own = made > 0 ? g_strdup_printf("%s %u", name, made + 1) : g_strdup(name);
     SbCadBody *body = sb_cad_body_new(own);
+    body->layer = first;
     half_section(body, chain, gap);
     if (body->why == NULL && is_degenerate(body->profile, gap)) {
       sb_cad_body_free(body);
@@ -467,7 +468,7 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
     body->why = body->why != NULL ? body->why : g_strdup(why);
     return;
   }
-  if (count > 1) {
+  if (count > 1 || best->measured) {
     sb_note_add(cad->warnings,
                 "%s: cut into %u pieces or hollow inside; the largest outline is its profile",
                 body->name, count);
