@@ -373,6 +373,15 @@ static void test_sdf(void) {
   assert_same(&scan, &h, 1e-20);
   sb_scan_clear(&scan);
   assert_cut_refused(bytes);
+  // Of double precision, whose end marks missing points.
+  g_byte_array_set_size(bytes, sizeof head);
+  bytes->data[79] = 7;
+  for (int i = 0; i < COLUMNS * ROWS; i++) {
+    put_double(bytes, isnan(height[i]) ? -DBL_MAX : 1e9 * height[i]);
+  }
+  parse(&scan, bytes, &plain);
+  assert_same(&scan, &h, 1e-20);
+  sb_scan_clear(&scan);
   g_byte_array_unref(bytes);
 }
 

@@ -48,7 +48,7 @@ bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind ki
   const bool good = sb_scan_allocate(out, columns, rows, error);
   for (guint64 i = 0; good && i < columns * rows; i++) {
     const double value = number_at(bytes.at + i * sizes[kind], kind);
-    out->heights.z[i] = value == missing ? NAN : scale * value;
+    out->heights.z[i] = value == missing || fabs(value) > 3.4e38 ? NAN : scale * value;
   }
   return good;
 }
