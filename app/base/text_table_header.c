@@ -66,14 +66,16 @@ static void split_name(char **name, char **unit, const char *text) {
   static const char *const links[] = {" in ", " en ", "/", "_", ",", ":", " "};
   const size_t length = strlen(text);
   const char *open = NULL, *close = NULL;
+  bool known = false;
   *unit = NULL;
-  for (const char *c = text + length; c > text && *unit == NULL; c--) {
+  for (const char *c = text + length; c > text && !known; c--) {
     // The last brackets with a unit; else what is in brackets at the end.
     if (strchr("])}>", c[-1]) != NULL) {
       close = c - 1;
     } else if (close != NULL && strchr("[({<", c[-1]) != NULL) {
       g_autofree char *inside = unit_text(c, (size_t)(close - c));
-      if (is_unit(inside) || (close == text + length - 1 && open == NULL)) {
+      known = is_unit(inside);
+      if (known || (close == text + length - 1 && open == NULL)) {
         open = c - 1;
         g_free(*unit);
         *unit = g_steal_pointer(&inside);
@@ -95,7 +97,11 @@ static void split_name(char **name, char **unit, const char *text) {
 }
 
 static void add_cell(GPtrArray *out, const char *text, size_t length) {
-  g_autofree char *cell = sb_printable(text, length);
+  // Letters and brackets of full width are those of ASCII.
+  g_autofree char *printed = sb_printable(text, length);
+  g_autofree char *cell = strstr(printed, "\xef\xbc") != NULL
+                              ? g_utf8_normalize(printed, -1, G_NORMALIZE_NFKC)
+                              : g_strdup(printed);
   g_auto(GStrv) parts = g_strsplit(cell, "\"\"", -1);
   g_ptr_array_add(out, g_strjoinv("\"", parts));
 }

@@ -280,6 +280,12 @@ static void test_habits(void) {
       // No value in the last column of the first row.
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,OVER\n", "@t,@x,@f\n", "", '.', 1, 1},
+      // A remark behind the unit; letters and brackets of full width, in Chinese.
+      {"Time (s) (abs),Ext (mm) (LVDT),Load (N) (Cell 1)\n", "@t,@x,@f\n", "", '.', 1, 1},
+      {"\u65f6\u95f4\uff08\uff53\uff09,\u4f4d\u79fb\uff08mm\uff09,\u529b\uff08N\uff09\n",
+       "@t,@x,@f\n", "", '.', 1, 1},
+      {"\u65f6\u95f4,\u4f4d\u79fb,\u8bd5\u9a8c\u529b\n\u79d2,\u6beb\u7c73,\u5343\u514b\u529b\n",
+       "@t,@x,@f\n", "", '.', 1 / 9.80665, 1},
       // Gram-force, inches by their sign, doubled ends of lines.
       {"Distance (\"),Force (g),Time (s)\r\r\n", "@x,@f,@t\r\r\n", "", '.', 1 / 9.80665e-3,
        1 / 25.4},
