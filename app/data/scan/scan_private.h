@@ -42,8 +42,8 @@ typedef enum {
 } SbScanKind;
 
 // Takes a grid from the first of `bytes`, row after row: heights are `scale` times the numbers; the
-// number `missing` (NaN: none), and any beyond single precision, is a missing point. Returns false with an error of
-// sb_scan_allocate(), or if there are too few bytes.
+// number `missing` (NaN: none) and those beyond single precision are missing points. Returns false
+// with an error of sb_scan_allocate(), or if there are too few bytes.
 bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
                        SbScanBytes bytes, double scale, double missing, GError **error);
 
