@@ -183,7 +183,7 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
 }
 
 // Takes units, or names with units, from a header line.
-static void take_line(SbTextTable *table, char *const *cells, bool units_only) {
+static void take_header_line(SbTextTable *table, char *const *cells, bool units_only) {
   for (size_t k = 0; k < table->columns && cells[k] != NULL; k++) {
     SbTextTableColumn *column = &table->column[k];
     g_autofree char *unit = NULL, *name = NULL;
@@ -213,10 +213,10 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
     if (stopped || (!titled && !units)) {
       stopped |= named && cells[0] != NULL;
     } else if (units && !united) {
-      take_line(table, cells, true);
+      take_header_line(table, cells, true);
       united = true;
     } else if (!units && !named) {
-      take_line(table, cells, false);
+      take_header_line(table, cells, false);
       named = true;
     } else {
       stopped = true;

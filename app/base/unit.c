@@ -20,14 +20,14 @@ typedef struct {
   ScaleStatus status;
   double scale; // SI value of one unit
   double zero;  // SI value of none: other than 0 for points of a scale of temperature only
-} Scale;
+} UnitScale;
 
-static pthread_mutex_t lock = PTHREAD_MUTEX_INITIALIZER;
+static pthread_mutex_t units_lock = PTHREAD_MUTEX_INITIALIZER;
 
 // Scales of pairs "unit|SI unit" that need no database.
 static const struct {
   const char *pair;
-  Scale scale;
+  UnitScale scale;
 } displayed[] = {
 #define SB_SCALE(unit, si, scale, zero) {unit "|" si, {SCALE_OK, scale, zero}},
 #include "app/base/unit_scales.def"
@@ -55,13 +55,13 @@ static bool unit_is_plain(const char *unit) {
 }
 
 // Asks udunits. The lock is held and the thread is in the C locale.
-static Scale ask(const char *unit, const char *si) {
+static UnitScale ask(const char *unit, const char *si) {
   static ut_system *units = NULL;
   if (units == NULL) {
     ut_set_error_message_handler(ut_ignore);
     units = ut_read_xml(NULL);
     if (units == NULL) {
-      return (Scale){SCALE_NO_DATABASE, 0, 0};
+      return (UnitScale){SCALE_NO_DATABASE, 0, 0};
     }
     // Of permeability: 3.35e-16 mol/(m.s.Pa).
     ut_unit *si_permeability = ut_parse(units, "mol/(m.s.Pa)", UT_UTF8);
@@ -70,7 +70,7 @@ static Scale ask(const char *unit, const char *si) {
     ut_free(barrer);
     ut_free(si_permeability);
   }
-  Scale result = {SCALE_UNKNOWN, 0, 0};
+  UnitScale result = {SCALE_UNKNOWN, 0, 0};
   ut_unit *from = ut_parse(units, unit, UT_UTF8);
   ut_unit *to = ut_parse(units, si, UT_UTF8);
   if (from != NULL && to != NULL) {
@@ -87,7 +87,7 @@ static Scale ask(const char *unit, const char *si) {
       double two = cv_convert_double(converter, 2) - zero;
       bool linear = isfinite(one) && one > 0 && fabs(two - 2 * one) <= 1e-12 * (two + fabs(zero));
       if (linear && (zero == 0 || strcmp(si, "K") == 0)) {
-        result = (Scale){SCALE_OK, zero != 0 && fabs(one - 1) < 1e-12 ? 1 : one, zero};
+        result = (UnitScale){SCALE_OK, zero != 0 && fabs(one - 1) < 1e-12 ? 1 : one, zero};
       }
     }
     cv_free(converter);
@@ -97,7 +97,7 @@ static Scale ask(const char *unit, const char *si) {
   return result;
 }
 
-static Scale find_scale(const char *unit, const char *si) {
+static UnitScale find_scale(const char *unit, const char *si) {
   enum { REMEMBERED_MAX = 512, UNIT_LENGTH_MAX = 40 };
   if (*unit == '\0') {
     unit = "1";
@@ -105,14 +105,14 @@ static Scale find_scale(const char *unit, const char *si) {
     unit = "degree"; // which udunits knows by that name and as a sign only
   }
   if (strlen(unit) > UNIT_LENGTH_MAX || !unit_is_plain(strcmp(unit, "1") == 0 ? "" : unit)) {
-    return (Scale){SCALE_UNKNOWN, 0, 0};
+    return (UnitScale){SCALE_UNKNOWN, 0, 0};
   }
   if (strcmp(unit, si) == 0) {
-    return (Scale){SCALE_OK, 1, 0};
+    return (UnitScale){SCALE_OK, 1, 0};
   }
   static GHashTable *remembered = NULL;
   g_autofree char *pair = g_strdup_printf("%s|%s", unit, si);
-  pthread_mutex_lock(&lock);
+  pthread_mutex_lock(&units_lock);
   if (remembered == NULL) {
     remembered = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
     for (size_t i = 0; i < G_N_ELEMENTS(displayed); i++) {
@@ -120,8 +120,8 @@ static Scale find_scale(const char *unit, const char *si) {
                           g_memdup2(&displayed[i].scale, sizeof displayed[i].scale));
     }
   }
-  Scale *known = g_hash_table_lookup(remembered, pair);
-  Scale scale;
+  UnitScale *known = g_hash_table_lookup(remembered, pair);
+  UnitScale scale;
   if (known != NULL) {
     scale = *known;
   } else {
@@ -138,12 +138,12 @@ static Scale find_scale(const char *unit, const char *si) {
       g_hash_table_insert(remembered, g_strdup(pair), g_memdup2(&scale, sizeof scale));
     }
   }
-  pthread_mutex_unlock(&lock);
+  pthread_mutex_unlock(&units_lock);
   return scale;
 }
 
 // True and the exponent k if a unit is 10^k of the SI unit.
-static bool is_power_of_ten(Scale scale, int *power) {
+static bool is_power_of_ten(UnitScale scale, int *power) {
   int k = (int)lround(log10(scale.scale));
   *power = k;
   return scale.zero == 0 && fabs(scale.scale - pow(10, k)) <= 1e-13 * scale.scale;
@@ -154,7 +154,7 @@ bool sb_quantity_is_point(const char *shown) {
 }
 
 // number x scale, the scale taken as a division where its inverse is whole: 20 mm/min is 20/60000.
-static double apply_scale(double number, Scale scale) {
+static double apply_scale(double number, UnitScale scale) {
   double inverse = 1 / scale.scale;
   if (inverse > 1 && inverse < 1e15 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
     return number / round(inverse) + scale.zero;
@@ -187,7 +187,7 @@ static bool fail_number(GError **error, const char *copy, bool plain, const char
 }
 
 // Finds the scale of a unit in `si`; false with a sentence.
-static bool take_scale(Scale *scale, const char *unit, const char *si, const char *shown,
+static bool take_scale(UnitScale *scale, const char *unit, const char *si, const char *shown,
                        GError **error) {
   // "2.8/GPa" for "2.8 1/GPa".
   g_autofree char *reciprocal = *unit == '/' ? g_strconcat("1", unit, NULL) : NULL;
@@ -234,7 +234,7 @@ bool sb_quantity_parse(double *out, const char *text, const char *si, const char
     return sb_app_error_input(error, "\"%.*s\" has no unit, write for example \"%.*s %s\"",
                               (int)length, copy, (int)length, copy, shown);
   }
-  Scale scale;
+  UnitScale scale;
   if (!take_scale(&scale, unit, si, shown, error)) {
     return false;
   }
@@ -273,7 +273,7 @@ bool sb_unit_scale(double *out, const char *unit, const char *si, const char *sh
 }
 
 double sb_quantity_to_shown(double value, const char *si, const char *shown) {
-  Scale scale = find_scale(shown, si);
+  UnitScale scale = find_scale(shown, si);
   if (scale.status != SCALE_OK) {
     return value;
   }
@@ -294,7 +294,7 @@ double sb_quantity_step(double value, const char *si, const char *shown, int pow
 }
 
 double sb_quantity_from_shown(double number, const char *si, const char *shown) {
-  Scale scale = find_scale(shown, si);
+  UnitScale scale = find_scale(shown, si);
   if (scale.status != SCALE_OK) {
     return number;
   }
@@ -307,7 +307,7 @@ double sb_quantity_from_shown(double number, const char *si, const char *shown) 
 }
 
 // Fewest digits of value / scale that come back as `value`; false if no 17 digits do.
-static bool format_scaled(char text[SB_NUMBER_SIZE], double value, Scale scale) {
+static bool format_scaled(char text[SB_NUMBER_SIZE], double value, UnitScale scale) {
   double near = (value - scale.zero) / scale.scale;
   for (int digits = 1; digits <= 17; digits++) {
     sb_number_round(text, near, digits);
@@ -328,7 +328,7 @@ static bool format_scaled(char text[SB_NUMBER_SIZE], double value, Scale scale) 
 
 char *sb_quantity_format(double value, const char *si, const char *shown) {
   char text[SB_NUMBER_SIZE];
-  Scale scale = find_scale(shown, si);
+  UnitScale scale = find_scale(shown, si);
   int power = 0;
   if (!isfinite(value) || scale.status != SCALE_OK) {
     sb_number_format(text, value);

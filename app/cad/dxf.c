@@ -16,11 +16,11 @@
 // Pieces, entities read, entities placed and layers with pieces of a file; nested blocks, of which
 // one may contain itself; different entities left out.
 enum {
-  PIECES_MAX = 100000,
+  DXF_PIECES_MAX = 100000,
   ENTITIES_MAX = 1000000,
   PLACED_MAX = 100000,
   LAYERS_MAX = 200,
-  DEPTH_MAX = 8,
+  DXF_DEPTH_MAX = 8,
   LEFT_OUT_MAX = 20
 };
 
@@ -97,10 +97,10 @@ static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GA
   g_array_append_vals(centre ? drawing->centre : drawing->layers->pdata[layer], pieces->data,
                       pieces->len);
   drawing->pieces += pieces->len;
-  return (drawing->pieces <= PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
+  return (drawing->pieces <= DXF_PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
          sb_app_error_input(error,
                             "more than %d pieces or %d layers: export the seal's parts alone",
-                            PIECES_MAX, LAYERS_MAX);
+                            DXF_PIECES_MAX, LAYERS_MAX);
 }
 
 // Returns why an entity on `layer` is not seen or is not in the plane; NULL: it is drawn.
@@ -138,9 +138,9 @@ static bool place_insert(Drawing *drawing, const SbDxfEntity *entity, const SbDx
     count_left_out(drawing, "INSERT", "");
     return true;
   }
-  if (depth >= DEPTH_MAX) {
+  if (depth >= DXF_DEPTH_MAX) {
     return sb_app_error_input(
-        error, "its blocks are nested more than %d deep, or contain themselves", DEPTH_MAX);
+        error, "its blocks are nested more than %d deep, or contain themselves", DXF_DEPTH_MAX);
   }
   bool good = true;
   const int columns = MAX((int)n[70], 1), count = MAX((int)n[71], 1) * columns;

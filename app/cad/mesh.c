@@ -14,7 +14,7 @@
 // vertex is on it [rad]; a piece that is none [m]; how much more volume another half-plane must
 // give, revolved; and when it need not be tried, relative.
 static const double SIDE_LEAST = 1e-3, SIDE_MOST = 40e-3, NEXT_TO = 1e-7, SHORT = 1e-9, MORE = 1e-3,
-                    ROUND = 0.02;
+                    MESH_ROUND = 0.02;
 
 // Half-planes that are tried, one in each sector about the axis.
 enum { SECTORS = 8 };
@@ -160,7 +160,7 @@ static bool measure(const SbStl *stl, const GPtrArray *shells, GError **error) {
 // The axis ----------------------------------------------------------------------------------------
 
 // Writes the axis about which the bodies are closest to bodies of revolution.
-static void find_axis(double axis[3], const GPtrArray *shells) {
+static void find_mesh_axis(double axis[3], const GPtrArray *shells) {
   double sum[3][3] = {{0}};
   for (guint i = 0; i < 9 * shells->len; i++) {
     const Shell *shell = shells->pdata[i / 9];
@@ -289,7 +289,7 @@ static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const cha
   g_autoptr(SbCad) chosen = NULL;
   double best = 0; // volume of the chosen half-section, revolved
   for (int k = 0; k < (choices->angle == NULL ? SECTORS : 1); k++) {
-    if (k > 0 && (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < ROUND)) {
+    if (k > 0 && (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
       continue;
     }
     SbCad *tried = sb_cad_new("");
@@ -326,7 +326,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     return NULL;
   }
   double found[3];
-  find_axis(found, shells);
+  find_mesh_axis(found, shells);
   const double *axis = choices->axis != NULL ? choices->axis : found;
   double frame[3][3];
   frame_of(frame, axis);

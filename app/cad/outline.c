@@ -7,12 +7,13 @@
 #include <string.h>
 
 // Comparing each end with each: a layer of more pieces is no seal's part.
-enum { PIECES_MAX = 5000, NEAR_MAX = 1000000 };
+enum { OUTLINE_PIECES_MAX = 5000, NEAR_MAX = 1000000 };
 
 // Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
 // a circle from the next one that continues it, and of a line from points on it; ends that are one
 // point where a body is cut [m].
-static const double SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8;
+static const double OUTLINE_SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8,
+                    CUT_GAP = 1e-8;
 
 static SbCadPiece reversed(SbCadPiece piece) {
   return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
@@ -115,7 +116,7 @@ static bool overlaps(const SbCadPiece *piece, const Drawn *other, double same, d
 
 // Divides a piece of `all` (of Drawn) at an end of another that runs along it: the remainder is
 // appended. Returns whether there is one.
-static bool divide(GArray *all, guint index, const Drawn *other, double same) {
+static bool divide_outline(GArray *all, guint index, const Drawn *other, double same) {
   const SbCadPiece whole = g_array_index(all, Drawn, index).piece;
   const double length = 2 * g_array_index(all, Drawn, index).reach, quarter = atan(whole.bulge);
   double place[2];
@@ -154,7 +155,7 @@ static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
   GArray *out = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   for (guint i = 0; i < pieces->len; i++) {
     const Drawn drawn = drawn_of(g_array_index(pieces, SbCadPiece, i));
-    if (2 * drawn.reach > SHORT) {
+    if (2 * drawn.reach > OUTLINE_SHORT) {
       g_array_append_val(all, drawn);
     }
   }
@@ -169,7 +170,7 @@ static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
         continue;
       }
       near++;
-      if (all->len < PIECES_MAX && divide(all, i, &other, same)) {
+      if (all->len < OUTLINE_PIECES_MAX && divide_outline(all, i, &other, same)) {
         k--; // its other end
       } else {
         single = k > i || !is_same(piece, &other, same);
@@ -412,9 +413,9 @@ static bool is_degenerate(const GArray *profile, double gap) {
 }
 
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
-  if (pieces->len > PIECES_MAX) {
+  if (pieces->len > OUTLINE_PIECES_MAX) {
     sb_note_add(cad->warnings, "%s: %u pieces, more than %d: left out", name, pieces->len,
-                PIECES_MAX);
+                OUTLINE_PIECES_MAX);
     return;
   }
   guint doubled = 0, made = 0;

@@ -122,10 +122,10 @@ static void draw_loops(Draw *d, SbRect rect) {
 
 // ---- Parameters ----
 
-#define ROW 30.0
+#define CALIBRATION_ROW 30.0
 
 static double table_height(const SbCalibrationView *view) {
-  return 48 + ROW * (double)view->rows;
+  return 48 + CALIBRATION_ROW * (double)view->rows;
 }
 
 static void draw_table(Draw *d, SbRect rect) {
@@ -146,7 +146,7 @@ static void draw_table(Draw *d, SbRect rect) {
   sb_canvas_text(c, _("identifiable"), &head, right, rect.y + 38, SB_RIGHT);
   for (size_t j = 0; j < d->view->rows; j++) {
     const SbCalibrationRow *row = &d->view->row[j];
-    const double y = rect.y + 48 + ROW * (double)j, base = y + 20;
+    const double y = rect.y + 48 + CALIBRATION_ROW * (double)j, base = y + 20;
     sb_canvas_hairline(c, rect.x, y, right, y, sb_canvas_role(c, SB_ROLE_GRID));
     sb_canvas_text_fit(c, row->name, &text, rect.x, base, 0.32 * rect.width);
     for (int i = 0; i < 3; i++) {

@@ -14,7 +14,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROW           20.0
+#define COMPARE_ROW   20.0
 #define HEAD          26.0
 #define LABEL         118.0
 #define VALUE         54.0
@@ -204,7 +204,7 @@ static void draw_row(SbCanvas *c, SbRect rect, const SbChartData *data, const Co
   Row row;
   make(&row, data, index);
   if (index < AT_PLAYHEAD) {
-    sb_canvas_fill(c, (SbRect){rect.x - 4, rect.y, rect.width + 8, ROW}, SB_ROLE_GRID, 1);
+    sb_canvas_fill(c, (SbRect){rect.x - 4, rect.y, rect.width + 8, COMPARE_ROW}, SB_ROLE_GRID, 1);
   } else {
     sb_canvas_hairline(c, rect.x, rect.y, rect.x + rect.width, rect.y,
                        sb_canvas_role(c, SB_ROLE_GRID));
@@ -232,8 +232,9 @@ void sb_compare_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbCha
   const Columns of = columns_of(rect, data);
   draw_head(c, rect, data, &of);
   double y = rect.y + HEAD;
-  for (size_t k = 0; k < ROWS && y + ROW <= rect.y + rect.height + 0.5; k++, y += ROW) {
-    draw_row(c, (SbRect){rect.x, y, rect.width, ROW}, data, &of, k);
+  for (size_t k = 0; k < ROWS && y + COMPARE_ROW <= rect.y + rect.height + 0.5;
+       k++, y += COMPARE_ROW) {
+    draw_row(c, (SbRect){rect.x, y, rect.width, COMPARE_ROW}, data, &of, k);
   }
   sb_canvas_finish(c);
 }

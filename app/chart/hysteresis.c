@@ -217,7 +217,7 @@ static void draw_predicted(SbHysteresisView *v) {
 }
 
 // The run itself: interior, future, played part.
-static void draw_loop(SbHysteresisView *v) {
+static void draw_hysteresis_loop(SbHysteresisView *v) {
   const SbChartRun *run = &v->data->run;
   SbCanvas *c = &v->canvas;
   size_t n,
@@ -350,7 +350,7 @@ static void draw_content(SbHysteresisView *v, SbRect in) {
   if (now) {
     sb_hysteresis_now(v, true);
   }
-  draw_loop(v);
+  draw_hysteresis_loop(v);
   if (data->measured != NULL) {
     sb_hysteresis_measured(v, in);
   }

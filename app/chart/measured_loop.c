@@ -5,13 +5,13 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-enum { DOTS = 360 };
+enum { LOOP_DOTS = 360 };
 
 // Index of drawn point `k`: by the golden ratio, because even steps would select the same positions
 // in every cycle.
 static size_t drawn(const SbComparison *of, size_t k) {
-  const double share = of->count > DOTS ? fmod((double)(k + 1) * 0.6180339887498949, 1)
-                                        : (double)k / (double)of->count;
+  const double share = of->count > LOOP_DOTS ? fmod((double)(k + 1) * 0.6180339887498949, 1)
+                                             : (double)k / (double)of->count;
   return MIN((size_t)(share * (double)of->count), of->count - 1);
 }
 
@@ -41,7 +41,7 @@ void sb_measured_loop_band(SbCanvas *c, const SbAxes *at, const SbMeasuredBand *
 }
 
 void sb_measured_loop_points(SbCanvas *c, const SbAxes *at, const SbComparison *of) {
-  for (size_t k = 0; k < MIN(of->count, DOTS); k++) {
+  for (size_t k = 0; k < MIN(of->count, LOOP_DOTS); k++) {
     const SbMeasuredPoint *point = &of->point[drawn(of, k)];
     sb_measured_loop_dot(c, sb_axes_at(at, point->displacement * 1e3, point->force), false);
   }
@@ -68,7 +68,7 @@ void sb_measured_loop_residuals(SbCanvas *c, SbRect strip, const SbAxes *loop, b
     sb_canvas_fill(c, (SbRect){strip.x, top, strip.width, sb_axis_at(&at.y, -by) - top},
                    SB_ROLE_OCHRE, 0.14);
   }
-  for (size_t k = 0; k < MIN(of->count, DOTS); k++) {
+  for (size_t k = 0; k < MIN(of->count, LOOP_DOTS); k++) {
     const size_t i = drawn(of, k);
     if (isfinite(of->residual[i])) {
       sb_measured_loop_dot(c, sb_axes_at(&at, of->point[i].displacement * 1e3, of->residual[i]),

@@ -19,7 +19,7 @@
 // ---------------------------------------------------------------------------------------------------
 // Shared scales
 
-static SbTraceRange range_of(const SbChartData *data) {
+static SbTraceRange range_of_profiles(const SbChartData *data) {
   SbTraceRange r = {0};
   if (data->run.trace == NULL) {
     return r;
@@ -46,7 +46,7 @@ static SbTraceRange range_of(const SbChartData *data) {
 }
 
 static void position_scale(SbAxes *at, const SbChartData *data) {
-  SbTraceRange r = range_of(data);
+  SbTraceRange r = range_of_profiles(data);
   double lo = r.contact_left * 1e3, hi = r.contact_right * 1e3;
   if (!(hi > lo)) {
     lo = -0.5;
@@ -61,7 +61,7 @@ static void position_scale(SbAxes *at, const SbChartData *data) {
 
 static void pressure_scale(SbAxes *at, const SbChartData *data) {
   const SbModel *model = data->run.model;
-  double top = fmax(range_of(data).pressure_peak_max,
+  double top = fmax(range_of_profiles(data).pressure_peak_max,
                     model ? sb_model_value(model, SB_P_CANISTER_PRESSURE) : 0) *
                1e-6;
   // Head-room for the peak's label, at least 26 px.
@@ -72,7 +72,7 @@ static void pressure_scale(SbAxes *at, const SbChartData *data) {
 
 static void film_scale(SbAxes *at, const SbChartData *data) {
   const SbModel *model = data->run.model;
-  SbTraceRange r = range_of(data);
+  SbTraceRange r = range_of_profiles(data);
   double least = r.film_min > 0 ? r.film_min : 1e-9;
   double most = fmax(r.film_max, model ? sb_model_sigma(model) : 1e-6);
   at->y = (SbScale){0.38 * least, 45 * most, at->y.p0, at->y.p1, true};

@@ -225,7 +225,7 @@ static void draw_level(const Chart *chart, double value, const char *text, bool 
   sb_canvas_text(c, text, &style, r.x + 10, below ? y + 17 : y - 6, SB_LEFT);
 }
 
-static void draw_curve(const Chart *chart, int k) {
+static void draw_propellants_curve(const Chart *chart, int k) {
   SbCanvas *c = chart->c;
   const SbStudySeries *series = sb_propellants_series(chart->study, chart->panel, k);
   SbPoint point[SB_STUDY_POINTS];
@@ -408,7 +408,7 @@ static void draw_chart(SbCanvas *c, const SbPropellantsLayout *layout, const SbS
   }
   for (int k = SB_PROPELLANTS - 1; k >= 0; k--) {
     if (shown(look, k) && sb_propellants_series(study, panel, k) != NULL) {
-      draw_curve(&chart, k);
+      draw_propellants_curve(&chart, k);
     }
   }
   name_curves(&chart);

@@ -5,7 +5,7 @@
 #include <glib/gi18n.h>
 #include <math.h>
 
-enum { RETURN = SB_PROPELLANTS_RETURN, DOSE };
+enum { RETURN_CARD = SB_PROPELLANTS_RETURN, DOSE };
 
 // A tick, a triangle, a cross or a dash, 12 px high on the baseline.
 static void draw_sign(SbCanvas *c, SbPropellantsAnswer answer, double x, double y) {
@@ -37,8 +37,8 @@ static void draw_sign(SbCanvas *c, SbPropellantsAnswer answer, double x, double 
 
 static char *answer_text(const SbStudy *study, int k, double T, double gauge) {
   char force[SB_FORMAT_MAX], at[SB_FORMAT_MAX];
-  const double value = sb_propellants_value(sb_propellants_series(study, RETURN, k), T);
-  sb_propellants_force(force, study, RETURN, value);
+  const double value = sb_propellants_value(sb_propellants_series(study, RETURN_CARD, k), T);
+  sb_propellants_force(force, study, RETURN_CARD, value);
   sb_propellants_degrees(at, T);
   if (gauge <= 0) {
     return g_strdup_printf(_("delivers nothing at %s °C: below ambient"), at);
@@ -57,7 +57,7 @@ static char *answer_text(const SbStudy *study, int k, double T, double gauge) {
 
 // "from 14 degC, 2 N from 19 degC".
 static char *range_text(const SbStudy *study, int k) {
-  const SbStudySeries *series = sb_propellants_series(study, RETURN, k);
+  const SbStudySeries *series = sb_propellants_series(study, RETURN_CARD, k);
   char from[SB_FORMAT_MAX], limit[SB_FORMAT_MAX], full[SB_FORMAT_MAX];
   const double weak = sb_propellants_weak_below(study);
   const double begins = sb_propellants_rises(series, 0),
@@ -78,9 +78,9 @@ static char *range_text(const SbStudy *study, int k) {
 }
 
 // The scale of temperature: red, amber, green, the cursor, and its ends.
-static void draw_strip(SbCanvas *c, SbRect r, const SbStudy *study, int k, double T) {
+static void draw_cards_strip(SbCanvas *c, SbRect r, const SbStudy *study, int k, double T) {
   static const double strength[] = {0.15, 0.28, 0.5, 0.5};
-  const SbStudySeries *series = sb_propellants_series(study, RETURN, k);
+  const SbStudySeries *series = sb_propellants_series(study, RETURN_CARD, k);
   const int steps = 280;
   if (series == NULL || series->count < 2) {
     return;
@@ -186,7 +186,7 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
     sb_canvas_text(c, _("in this design"), &note, x + width, card.y + 28, SB_RIGHT);
   }
   if (layout->small) {
-    draw_strip(c, (SbRect){x, card.y + 50, width, 8}, study, k, T);
+    draw_cards_strip(c, (SbRect){x, card.y + 50, width, 8}, study, k, T);
     return;
   }
   char number[SB_FORMAT_MAX];
@@ -195,7 +195,7 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
   draw_figures(c, model, k, T, gauge, x, card.y + 54, width);
   sb_canvas_hairline(c, x, card.y + 92, x + width, card.y + 92,
                      sb_canvas_role(c, SB_ROLE_HAIRLINE));
-  const double force = sb_propellants_value(sb_propellants_series(study, RETURN, k), T);
+  const double force = sb_propellants_value(sb_propellants_series(study, RETURN_CARD, k), T);
   const SbPropellantsAnswer answer =
       gauge <= 0 ? SB_PROPELLANT_STUCK : sb_propellants_answer(study, force);
   SbTextStyle verdict = sb_canvas_style(c, SB_TYPE_LABEL, 600, sb_propellants_role(answer));
@@ -209,7 +209,7 @@ void sb_propellants_card(SbCanvas *c, const SbPropellantsLayout *layout, const S
     used = sb_canvas_text(c, mass, &note, x + width, card.y + 116, SB_RIGHT) + 8;
   }
   sb_canvas_text_fit(c, text, &verdict, x + 20, card.y + 117, width - 20 - used);
-  draw_strip(c, (SbRect){x, card.y + 140, width, 8}, study, k, T);
+  draw_cards_strip(c, (SbRect){x, card.y + 140, width, 8}, study, k, T);
 }
 
 char *sb_propellants_text(const SbStudy *study, const SbModel *model,

@@ -93,8 +93,8 @@ static void draw_reasons(SbCanvas *c, SbRect in, const SbChartRun *run) {
 // Scale
 
 // One row: name, bar from zero, value.
-static void draw_row(SbCanvas *c, SbRect in, double y, const SbScale *x, const char *name,
-                     double value, SbColor color, bool ours, int digits) {
+static void draw_rig_row(SbCanvas *c, SbRect in, double y, const SbScale *x, const char *name,
+                         double value, SbColor color, bool ours, int digits) {
   SbTextStyle label = sb_canvas_style(c, SB_TYPE_LABEL, 400, SB_ROLE_SECOND);
   SbTextStyle bold = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_INK);
   char number[SB_FORMAT_MAX];
@@ -141,8 +141,8 @@ static void draw_scale(SbCanvas *c, SbRect in, const SbChartRun *run) {
   const int count = (int)G_N_ELEMENTS(rows);
   double step = fmin(28, in.height / count);
   for (int i = 0; i < count; i++) {
-    draw_row(c, in, in.y + (i + 0.5) * step, &x, rows[i].name, rows[i].value, rows[i].color,
-             rows[i].ours, rows[i].digits);
+    draw_rig_row(c, in, in.y + (i + 0.5) * step, &x, rows[i].name, rows[i].value, rows[i].color,
+                 rows[i].ours, rows[i].digits);
   }
   sb_canvas_hairline(c, x.p0, in.y, x.p0, in.y + count * step, sb_canvas_role(c, SB_ROLE_AXIS));
 }
@@ -316,7 +316,8 @@ static void draw_load(SbCanvas *c, const Plate *at, double load) {
 }
 
 // Figures at the playhead.
-static void draw_figures(SbCanvas *c, const Plate *at, const SbChartData *data, const SbFrame *f) {
+static void draw_rig_figures(SbCanvas *c, const Plate *at, const SbChartData *data,
+                             const SbFrame *f) {
   const SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 600, SB_ROLE_NOW);
   const SbModel *m = data->run.model;
   const double still = 1e-3 * (m ? sb_model_rig(m)->speed : 1);
@@ -346,7 +347,7 @@ void sb_rig_plate_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbC
     draw_load(&canvas, &at, sb_model_rig(m)->load);
   }
   if (f) {
-    draw_figures(&canvas, &at, data, f);
+    draw_rig_figures(&canvas, &at, data, f);
   }
   sb_canvas_finish(&canvas);
 }

@@ -38,7 +38,7 @@ static double shown_of(const SbHistogram *of, double value) {
   return sb_quantity_to_shown(value, of->si, of->unit);
 }
 
-static void fill(Bins *bins, const SbHistogram *of) {
+static void fill_samples(Bins *bins, const SbHistogram *of) {
   double least = INFINITY, greatest = -INFINITY;
   *bins = (Bins){0};
   for (size_t i = 0; i < of->count; i++) {
@@ -97,7 +97,7 @@ void sb_histogram_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbH
   SbCanvas *c = &canvas;
   sb_canvas_init(c, cr, theme);
   Bins bins;
-  fill(&bins, of);
+  fill_samples(&bins, of);
   char note[120];
   if (bins.count == 0) {
     g_strlcpy(note, _("no sample has a value"), sizeof note);

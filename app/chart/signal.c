@@ -20,7 +20,7 @@ typedef struct {
   const SbChartData *data;
 } View;
 
-static void lay_out(View *v, SbRect rect, unsigned flags) {
+static void lay_signal_out(View *v, SbRect rect, unsigned flags) {
   bool compact = flags & SB_CHART_COMPACT;
   const SbRect in = sb_frame_inner(rect, flags & SB_CHART_PANEL);
   const SbChartRun *run = &v->data->run;
@@ -46,7 +46,7 @@ static void lay_out(View *v, SbRect rect, unsigned flags) {
   sb_axes_ticks(&v->at, plot.width > 300 ? 8 : 5, wanted);
 }
 
-static void draw_head(View *v, SbRect in, bool compact) {
+static void draw_signal_head(View *v, SbRect in, bool compact) {
   char load[SB_FORMAT_MAX], speed[SB_FORMAT_MAX], note[160] = "";
   const SbModel *m = v->data->run.model;
   if (m) {
@@ -63,7 +63,7 @@ static SbPoint at(const View *v, double time, double force) {
   return sb_axes_at(&v->at, time, force);
 }
 
-static void draw_curve(View *v, bool whole) {
+static void draw_signal_curve(View *v, bool whole) {
   const SbChartRun *run = &v->data->run;
   SbCanvas *c = &v->canvas;
   size_t n;
@@ -94,7 +94,7 @@ static void draw_curve(View *v, bool whole) {
 }
 
 // A dashed level over the part of the record that it is the mean of.
-static void draw_level(View *v, double force, double from, const SbDash *dash, SbRole role) {
+static void draw_signal_level(View *v, double force, double from, const SbDash *dash, SbRole role) {
   const double y = floor(sb_axis_at(&v->at.y, force)) + 0.5;
   sb_canvas_line(&v->canvas, (SbStroke){role, 1.6, dash}, sb_axis_at(&v->at.x, from), y,
                  v->at.plot.x + v->at.plot.width, y);
@@ -115,10 +115,11 @@ static void draw_peaks(View *v) {
   const SbRigCoefficients *of = &s->rig.of;
   SbColor outer = sb_canvas_role(c, SB_ROLE_OUTER), fluid = sb_canvas_role(c, SB_ROLE_FLUID);
   double load = sb_model_rig(run->model)->load;
-  draw_level(v, of->mean_coefficient * load, of->first_time, &sb_dash_dimension, SB_ROLE_FLUID);
+  draw_signal_level(v, of->mean_coefficient * load, of->first_time, &sb_dash_dimension,
+                    SB_ROLE_FLUID);
   if (of->stick_slip) {
-    draw_level(v, of->dynamic_coefficient * load, of->first_time, &sb_dash_reference,
-               SB_ROLE_OUTER);
+    draw_signal_level(v, of->dynamic_coefficient * load, of->first_time, &sb_dash_reference,
+                      SB_ROLE_OUTER);
   }
   size_t n;
   const SbTracePoint *peak = sb_trace_peaks(run->trace, &n);
@@ -168,8 +169,8 @@ void sb_signal_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
   View v = {.data = data};
   SbCanvas *c = &v.canvas;
   sb_canvas_init(c, cr, theme);
-  lay_out(&v, rect, flags);
-  draw_head(&v, sb_frame_begin(c, rect, flags & SB_CHART_PANEL), flags & SB_CHART_COMPACT);
+  lay_signal_out(&v, rect, flags);
+  draw_signal_head(&v, sb_frame_begin(c, rect, flags & SB_CHART_PANEL), flags & SB_CHART_COMPACT);
   sb_axes_draw(c, &v.at, NULL);
   const SbChartRun *run = &data->run;
   if (run->count > 0 && run->trace && sb_trace_frames(run->trace) > 0) {
@@ -182,7 +183,7 @@ void sb_signal_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
     if (!whole) {
       sb_cursor_drop(c, now, v.at.plot.y + v.at.plot.height);
     }
-    draw_curve(&v, whole);
+    draw_signal_curve(&v, whole);
     draw_peaks(&v);
     if (!whole) {
       sb_cursor_now(c, now);
@@ -200,7 +201,7 @@ void sb_signal_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChar
 bool sb_signal_hit(size_t *frame, SbRect rect, const SbChartData *data, unsigned flags, double x,
                    double y) {
   View v = {.data = data};
-  lay_out(&v, rect, flags);
+  lay_signal_out(&v, rect, flags);
   const SbChartRun *run = &data->run;
   if (run->count == 0 || !sb_axes_inside(&v.at, x, y, 8)) {
     return false;

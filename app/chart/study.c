@@ -364,7 +364,7 @@ static void draw_plot(SbStudyPlot *plot, double pad, double gutter) {
   }
 }
 
-static void draw_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t index) {
+static void draw_study_panel(SbCanvas *c, SbRect rect, const SbStudy *study, size_t index) {
   const SbStudyPanel *panel = &study->panel[index];
   const bool narrow = rect.width < NARROW;
   const double pad = narrow ? 12 : SB_GRID_PADDING, gutter = gutter_of(c, panel, rect.width);
@@ -403,7 +403,7 @@ void sb_study_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbStudy
   SbStudyLayout layout;
   sb_study_layout(&layout, rect, study);
   for (size_t i = 0; i < study->panel_count; i++) {
-    draw_panel(c, layout.panel[i], study, i);
+    draw_study_panel(c, layout.panel[i], study, i);
   }
   if (layout.table.height > 0) {
     sb_study_table_draw(c, layout.table, study);

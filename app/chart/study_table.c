@@ -9,7 +9,7 @@
 #include <math.h>
 #include <string.h>
 
-#define ROW       21.0
+#define TABLE_ROW 21.0
 #define HEAD_LINE 15.0
 
 enum { HEAD_LINES = 2 };
@@ -64,7 +64,7 @@ static int wrap(SbCanvas *c, const char *text, const SbTextStyle *style, double 
 double sb_study_table_height(const SbStudy *study) {
   return study->row_count == 0
              ? 0
-             : 14 + (HEAD_LINES + 1) * HEAD_LINE + 4 + ROW * (double)study->row_count + 10;
+             : 14 + (HEAD_LINES + 1) * HEAD_LINE + 4 + TABLE_ROW * (double)study->row_count + 10;
 }
 
 void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
@@ -104,7 +104,7 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
   sb_canvas_hairline(c, left, y, end, y, sb_canvas_role(c, SB_ROLE_AXIS));
   for (size_t r = 0; r < study->row_count; r++) {
     const SbStudyRow *row = &study->row[r];
-    double base = y + ROW * (double)r + 15;
+    double base = y + TABLE_ROW * (double)r + 15;
     if (base > rect.y + rect.height - 4) {
       break;
     }
@@ -119,7 +119,7 @@ void sb_study_table_draw(SbCanvas *c, SbRect rect, const SbStudy *study) {
       cell_text(text, &study->column[k], row, row->value[k]);
       sb_canvas_text(c, text, &value, left + first + each * (double)(k + 1), base, SB_RIGHT);
     }
-    double rule = y + ROW * (double)(r + 1);
+    double rule = y + TABLE_ROW * (double)(r + 1);
     if (r + 1 < study->row_count) {
       sb_canvas_hairline(c, left, rule, end, rule, sb_canvas_role(c, SB_ROLE_GRID));
     }

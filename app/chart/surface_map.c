@@ -74,7 +74,7 @@ static void draw_image(const Map *map) {
 }
 
 // The scale of heights beside the map.
-static void draw_scale(const Map *map) {
+static void draw_surface_map_scale(const Map *map) {
   enum { STEPS = 64, WIDTH = 14 };
   SbCanvas *c = map->canvas;
   const double x = map->plot.x + map->plot.width + 14;
@@ -144,7 +144,7 @@ void sb_surface_map_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const S
   sb_axes_draw(&canvas, &at, NULL);
   if (surface) {
     draw_image(&map);
-    draw_scale(&map);
+    draw_surface_map_scale(&map);
   } else {
     draw_line(&map, &at);
   }

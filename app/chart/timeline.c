@@ -55,17 +55,17 @@ typedef struct {
   int events;
   int now;    // index of the event whose stage is under the playhead, -1 without one
   bool whole; // no playhead
-} View;
+} TimelineView;
 
 // Pixels of the strip that an event begins.
-static void strip_of(const View *v, int event, double *x0, double *x1) {
+static void strip_of(const TimelineView *v, int event, double *x0, double *x1) {
   double last = sb_trace_range(v->data->run.trace).time_max;
   *x0 = sb_axis_at(&v->x, v->event[event].mark.time);
   *x1 = sb_axis_at(&v->x, event + 1 < v->events ? v->event[event + 1].mark.time : last);
 }
 
 // Strips from event to event; the current one in the colour of *now*.
-static void draw_strips(View *v) {
+static void draw_strips(TimelineView *v) {
   SbCanvas *c = &v->canvas;
   double last = sb_trace_range(v->data->run.trace).time_max;
   for (int i = 0; i < v->events; i++) {
@@ -87,7 +87,7 @@ static void draw_strips(View *v) {
   }
 }
 
-static void draw_displacement(View *v) {
+static void draw_displacement(TimelineView *v) {
   const SbChartRun *run = &v->data->run;
   SbCanvas *c = &v->canvas;
   size_t n;
@@ -107,7 +107,7 @@ static void draw_displacement(View *v) {
   sb_canvas_curve(c, (SbStroke){SB_ROLE_INK, 2.4, NULL}, q, split + 2);
 }
 
-static void draw_events(View *v) {
+static void draw_events(TimelineView *v) {
   SbCanvas *c = &v->canvas;
   SbTextStyle letter = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
   double taken = -1e9;
@@ -146,7 +146,7 @@ static void time_text(char *out, const SbTicks *ticks, double value) {
   g_strlcat(out, value == 0 ? " s" : "", SB_FORMAT_MAX);
 }
 
-static void draw_axis(View *v) {
+static void draw_axis(TimelineView *v) {
   SbAxes at = {.plot = {v->rect.x, v->top, v->rect.width, v->bottom - v->top},
                .x = v->x,
                .x_text = time_text,
@@ -228,7 +228,7 @@ bool sb_timeline_marker_hit(size_t *index, SbRect rect, const SbChartData *data,
   return hit;
 }
 
-static void draw_markers(View *v) {
+static void draw_markers(TimelineView *v) {
   SbCanvas *c = &v->canvas;
   SbTextStyle style = flag_style(c);
   Flag *flags = place_flags(c, v->rect, &v->x, v->data);
@@ -245,7 +245,7 @@ static void draw_markers(View *v) {
 }
 
 // Which of several cycles begins here, in the first of its strips that has room.
-static void draw_cycles(View *v) {
+static void draw_cycles(TimelineView *v) {
   SbCanvas *c = &v->canvas;
   SbTextStyle style = sb_canvas_style(c, SB_TYPE_LABEL, 700, SB_ROLE_INK);
   int named = -1;
@@ -270,7 +270,7 @@ static void draw_cycles(View *v) {
   }
 }
 
-static void draw_names(View *v) {
+static void draw_names(TimelineView *v) {
   SbCanvas *c = &v->canvas;
   const SbChartRun *run = &v->data->run;
   const SbStageMark *mark = sb_trace_marks(run->trace);
@@ -318,7 +318,7 @@ static void draw_names(View *v) {
   }
 }
 
-static void draw_playhead(View *v) {
+static void draw_playhead(TimelineView *v) {
   SbCanvas *c = &v->canvas;
   const SbFrame *frame = sb_chart_frame(v->data);
   double x = sb_axis_at(&v->x, frame->time), y = sb_axis_at(&v->s, frame->displacement);
@@ -335,7 +335,7 @@ static void draw_playhead(View *v) {
 
 void sb_timeline_draw(cairo_t *cr, SbRect rect, const SbTheme *theme, const SbChartData *data,
                       unsigned flags) {
-  View v = {.rect = rect, .data = data, .now = -1, .whole = flags & SB_CHART_WHOLE};
+  TimelineView v = {.rect = rect, .data = data, .now = -1, .whole = flags & SB_CHART_WHOLE};
   sb_canvas_init(&v.canvas, cr, theme);
   v.top = rect.y + 18;
   v.bottom = rect.y + fmax(rect.height - 22, 40);

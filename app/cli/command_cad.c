@@ -117,7 +117,7 @@ static void print_bodies(const SbCad *cad, const int *chosen) {
 
 // ---- JSON ----
 
-static char *to_json(const SbCad *cad, const int *chosen) {
+static char *to_cad_json(const SbCad *cad, const int *chosen) {
   SbJson json;
   sb_json_document(&json);
   sb_json_string(&json, "format", cad->format);
@@ -238,7 +238,7 @@ static int compute(const char *path, const Options *options) {
     code = sb_still_write(&still, options->plot, &error) ? SB_EXIT_DONE : sb_cli_error(error);
   }
   if (code == SB_EXIT_DONE && options->json != NULL) {
-    g_autofree char *json = to_json(cad, chosen);
+    g_autofree char *json = to_cad_json(cad, chosen);
     code = sb_cli_emit(json, options->json);
   } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
     print_bodies(cad, chosen);

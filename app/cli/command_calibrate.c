@@ -38,7 +38,7 @@ static void print_modes_outside(const SbCalibration *of) {
   }
 }
 
-static void print_table(const SbStudyFile *study, const SbCalibration *of) {
+static void print_calibrate_table(const SbStudyFile *study, const SbCalibration *of) {
   printf("%s: %zu curves, %zu points\n", study->title, of->curves, of->points);
   g_autoptr(SbTable) table = sb_calibration_table(of);
   (void)sb_cli_table(table, NULL);
@@ -72,10 +72,10 @@ typedef struct {
   const char *path, *json;
   const SbStudyFile *study;
   const SbCalibration *calibration;
-} Files;
+} CalibrateFiles;
 
-static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
-  const Files *files = data;
+static bool fill_calibrate_folder(SbOutputFolder *folder, void *data, GError **error) {
+  const CalibrateFiles *files = data;
   const SbCalibration *of = files->calibration;
   FILE *stream;
   if (!sb_output_folder_add_text(folder, result_name, files->json, error) ||
@@ -119,14 +119,14 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
     code = sb_cli_status(status, &report);
   } else {
     g_autofree char *json = sb_calibration_json(&calibration, study);
-    Files files = {options->folder, json, study, &calibration};
+    CalibrateFiles files = {options->folder, json, study, &calibration};
     code = options->folder != NULL
-               ? sb_cli_write_folder(options->folder, "calibrate", fill_folder, &files)
+               ? sb_cli_write_folder(options->folder, "calibrate", fill_calibrate_folder, &files)
                : SB_EXIT_DONE;
     if (code == SB_EXIT_DONE && options->json != NULL) {
       code = sb_cli_emit(json, options->json);
     } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
-      print_table(study, &calibration);
+      print_calibrate_table(study, &calibration);
     }
     if (status == SB_ERROR_CANCELLED) {
       (void)sb_cli_fail("interrupted: the estimates are the best so far%s",

@@ -12,7 +12,7 @@ typedef struct {
   char **settings;
   SbCliPlots plots;
   GPtrArray *runs; // of Run
-} Options;
+} CompareOptions;
 
 // A run that is compared.
 typedef struct {
@@ -38,7 +38,7 @@ static void clear_run(void *data) {
 
 // Appends one run with the figures and the measured loop of a computed one, which it takes.
 static void add_run(GPtrArray *runs, const SbCliFile *file, SbRun *run, const char *name,
-                    SbMeasured *measured, const Options *options) {
+                    SbMeasured *measured, const CompareOptions *options) {
   Run *kept = g_new0(Run, 1);
   *kept = (Run){.of = {.name = g_strdup(name), .scene = g_strdup(file->full)},
                 .methods = sb_model_methods(sb_run_model(run)),
@@ -65,7 +65,7 @@ static void add_run(GPtrArray *runs, const SbCliFile *file, SbRun *run, const ch
 
 // Runs one model of a file and keeps it as `name`; an exit code.
 static int run_model(GPtrArray *runs, const SbCliFile *file, const SbModel *model, const char *name,
-                     const Options *options) {
+                     const CompareOptions *options) {
   SbPlan plan;
   SbReport report = {0};
   SbRun *run = NULL;
@@ -90,7 +90,7 @@ static int run_model(GPtrArray *runs, const SbCliFile *file, const SbModel *mode
 
 // A file's document and its pins; an exit code.
 static int run_file(SbCliFiles *files, const SbCliFile *file, void *data) {
-  const Options *options = data;
+  const CompareOptions *options = data;
   GPtrArray *runs = options->runs;
   const SbDocument *document = file->document;
   int code = run_model(runs, file, file->model, sb_document_title(document), options);
@@ -165,7 +165,7 @@ static void print_runs(const GPtrArray *runs) {
 }
 
 int sb_command_compare(int argc, char **argv) {
-  Options options = {0};
+  CompareOptions options = {0};
   const GOptionEntry entries[] = {
       {"measured", 0, 0, G_OPTION_ARG_FILENAME, &options.measured, SB_CLI_MEASURED_HELP, "FILE"},
       {"set", 0, 0, G_OPTION_ARG_FILENAME_ARRAY, &options.settings, SB_CLI_SET_HELP, "KEY=VALUE"},

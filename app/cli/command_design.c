@@ -7,7 +7,7 @@
 
 #include <math.h>
 
-static const char result_name[] = "results.json";
+static const char design_result_name[] = "results.json";
 
 static void add_parameters(SbTable *table, const SbStudyFile *study, const SbDesign *design) {
   for (guint k = 0; k < study->vary->len; k++) {
@@ -69,7 +69,7 @@ static SbTable *make_table(const SbStudyFile *study, const SbDesign *design) {
   return table;
 }
 
-static void print_table(const SbStudyFile *study, const SbDesign *design) {
+static void print_design_table(const SbStudyFile *study, const SbDesign *design) {
   printf("%s: %s %s\n", study->title, study->design.maximise ? "maximise" : "minimise",
          sb_figure(study->design.figure)->path);
   g_autoptr(SbTable) table = make_table(study, design);
@@ -132,11 +132,11 @@ static int judge(const SbStudyFile *study, const SbDesign *design) {
   return SB_EXIT_DONE;
 }
 
-static bool fill_folder(SbOutputFolder *folder, void *json, GError **error) {
-  return sb_output_folder_add_text(folder, result_name, json, error);
+static bool fill_design_folder(SbOutputFolder *folder, void *json, GError **error) {
+  return sb_output_folder_add_text(folder, design_result_name, json, error);
 }
 
-static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
+static int solve_design(const SbCliStudyOptions *options, const SbStudyFile *study) {
   SbDesign design;
   SbReport report = {0};
   sb_cli_catch_interrupts();
@@ -151,12 +151,12 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   } else {
     g_autofree char *json = sb_design_json(study, &design);
     code = options->folder != NULL
-               ? sb_cli_write_folder(options->folder, "design", fill_folder, json)
+               ? sb_cli_write_folder(options->folder, "design", fill_design_folder, json)
                : SB_EXIT_DONE;
     if (code == SB_EXIT_DONE && options->json != NULL) {
       code = sb_cli_emit(json, options->json);
     } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
-      print_table(study, &design);
+      print_design_table(study, &design);
     }
     const int judged = judge(study, &design);
     code = MAX(code, judged);
@@ -165,7 +165,7 @@ static int solve(const SbCliStudyOptions *options, const SbStudyFile *study) {
   return code;
 }
 
-static bool asks(const SbStudyFile *study, const char *path, GPtrArray *issues) {
+static bool design_asks(const SbStudyFile *study, const char *path, GPtrArray *issues) {
   if (!study->design.asked) {
     sb_issues_add(issues, path, 0, "design", "objective = minimise FIGURE",
                   "is missing: the objective of the design");
@@ -173,12 +173,12 @@ static bool asks(const SbStudyFile *study, const char *path, GPtrArray *issues) 
   return study->design.asked;
 }
 
-static void add_names(GPtrArray *names, const SbStudyFile *study) {
-  g_ptr_array_add(names, g_strdup(result_name));
+static void add_design_names(GPtrArray *names, const SbStudyFile *study) {
+  g_ptr_array_add(names, g_strdup(design_result_name));
 }
 
 int sb_command_design(int argc, char **argv) {
-  static const SbCliStudyWork work = {asks, add_names, solve};
+  static const SbCliStudyWork work = {design_asks, add_design_names, solve_design};
   SbCliStudyOptions options;
   const bool good = sb_cli_study_parse(&options, &argc, &argv, "Folder for results.json");
   return good ? sb_cli_study_run(&options, argv[1], &work) : SB_EXIT_INPUT;

@@ -14,7 +14,7 @@
 #include <stddef.h>
 #include <string.h>
 
-static void print_table(const SbFilm *film, const SbFilmProblem *problem) {
+static void print_film_table(const SbFilm *film, const SbFilmProblem *problem) {
   printf("Film by %s\n", sb_film_kind(film->model)->name);
   if (!film->solver.converged && film->film_central == 0) {
     sb_cli_line("Converged", "NO, nothing found");
@@ -140,7 +140,7 @@ typedef struct {
   SbReport report;
 } Solve;
 
-static SbStatus solve(void *data, double *wall_s) {
+static SbStatus solve_film(void *data, double *wall_s) {
   Solve *job = data;
   SbStatus status = sb_film_solve(job->film, job->problem, NULL, &job->report);
   *wall_s = job->film->solver.wall_s;
@@ -356,7 +356,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
   Solve job = {film, &lent, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
-  SbStatus status = sb_timing_median(&wall_s, solve, &job);
+  SbStatus status = sb_timing_median(&wall_s, solve_film, &job);
   film->solver.wall_s = wall_s;
   job.report.input = 0; // the catalogue's key and range are a seal's, not this command's
   int code = sb_cli_status(status, &job.report);
@@ -382,7 +382,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
       g_autofree char *json = sb_results_film(film, series != NULL ? &history : NULL);
       written = sb_cli_emit(json, target);
     } else if (!sb_cli_quiet()) {
-      print_table(film, problem);
+      print_film_table(film, problem);
       if (series != NULL) {
         print_history(&history);
       }

@@ -10,7 +10,7 @@
 #include <math.h>
 #include <string.h>
 
-static void print_table(const SbFit *fit, const char *seal, bool dragged) {
+static void print_fit_table(const SbFit *fit, const char *seal, bool dragged) {
   printf("%s seal by %s\n", seal, sb_fit_kind(fit->model)->name);
   sb_cli_rows(sb_fit_rows, fit);
   const bool found = sb_results_fit_found(fit);
@@ -64,17 +64,17 @@ typedef struct {
   SbFit *fit;
   const SbFitProblem *problem;
   SbReport report;
-} Solve;
+} FitSolve;
 
-static SbStatus solve(void *data, double *wall_s) {
-  Solve *job = data;
+static SbStatus solve_fit(void *data, double *wall_s) {
+  FitSolve *job = data;
   SbStatus status = sb_fit_solve(job->fit, job->problem, &job->report);
   *wall_s = job->fit->solver.wall_s;
   return status;
 }
 
 // --model NAME or NAME:VARIANT.
-static bool choose_model(SbFitProblem *problem, const char *name) {
+static bool choose_fit_model(SbFitProblem *problem, const char *name) {
   const char *colon = strchr(name, ':');
   g_autofree char *base = colon != NULL ? g_strndup(name, (size_t)(colon - name)) : g_strdup(name);
   bool good = sb_fit_model_from_name(&problem->model, base);
@@ -148,10 +148,10 @@ typedef struct {
   char **settings, **exports;
   SbCliPlots plots;
   bool limit; // the maximum drag is requested
-} Options;
+} FitOptions;
 
 // Reads the problem of the seal *index of a model from the options; false with a message.
-static bool read_problem(SbFitProblem *problem, int *index, Options *options,
+static bool read_problem(SbFitProblem *problem, int *index, FitOptions *options,
                          const SbModel *model) {
   for (*index = 0; g_strcmp0(sb_seal_name(*index), options->seal) != 0;) {
     if (++*index == SB_SEAL_COUNT) {
@@ -166,7 +166,7 @@ static bool read_problem(SbFitProblem *problem, int *index, Options *options,
   problem->tolerance = 1e-3;
   if (!sb_cli_quantity(&problem->pressure, "--pressure", options->pressure, false, "Pa", "MPa") ||
       !sb_cli_quantity(&problem->tolerance, "--tolerance", options->tolerance, false, "1", "") ||
-      (options->model != NULL && !choose_model(problem, options->model)) ||
+      (options->model != NULL && !choose_fit_model(problem, options->model)) ||
       (options->drag != NULL &&
        !choose_drag(problem, &options->limit, options->drag, options->model != NULL))) {
     return false;
@@ -186,7 +186,7 @@ static bool read_problem(SbFitProblem *problem, int *index, Options *options,
 }
 
 // Writes or prints a fit; an exit code.
-static int show(const SbFit *fit, const SbFitProblem *problem, const Options *options,
+static int show(const SbFit *fit, const SbFitProblem *problem, const FitOptions *options,
                 const SbGlandReadout *gland, const SbRubberState *storage, const char *path) {
   if (options->json != NULL) {
     g_autofree char *file = sb_cli_full_path(path, SB_SHIPPED_FOR_RUN);
@@ -195,7 +195,7 @@ static int show(const SbFit *fit, const SbFitProblem *problem, const Options *op
     return sb_cli_emit(json, options->json);
   }
   if (!sb_cli_quiet()) {
-    print_table(fit, options->seal, problem->dragged);
+    print_fit_table(fit, options->seal, problem->dragged);
     if (gland != NULL) {
       print_gland(gland);
     }
@@ -207,15 +207,15 @@ static int show(const SbFit *fit, const SbFitProblem *problem, const Options *op
 }
 
 // Solves, shows and exports the fit of the seal `index`; an exit code.
-static int solve_and_show(SbFitProblem *problem, int index, const Options *options,
-                          const SbModel *model, const char *path) {
+static int solve_fit_and_show(SbFitProblem *problem, int index, const FitOptions *options,
+                              const SbModel *model, const char *path) {
   SbRing *ring = NULL;
   problem->kept = options->exports != NULL ? &ring : NULL;
   g_autofree SbFit *fit = g_new0(SbFit, 1);
-  Solve job = {fit, problem, {0}};
+  FitSolve job = {fit, problem, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
-  const SbStatus status = sb_timing_median(&wall_s, solve, &job);
+  const SbStatus status = sb_timing_median(&wall_s, solve_fit, &job);
   fit->solver.wall_s = wall_s;
   int code = sb_cli_status(status, &job.report);
   sb_model_warn(model, &fit->warnings);
@@ -241,7 +241,7 @@ static int solve_and_show(SbFitProblem *problem, int index, const Options *optio
 }
 
 int sb_command_fit(int argc, char **argv) {
-  Options options = {0};
+  FitOptions options = {0};
   const GOptionEntry entries[] = {
       {"seal", 0, 0, G_OPTION_ARG_FILENAME, &options.seal, "outer or inner", "NAME"},
       {"pressure", 0, 0, G_OPTION_ARG_FILENAME, &options.pressure,
@@ -273,5 +273,6 @@ int sb_command_fit(int argc, char **argv) {
   }
   int code = sb_cli_check_outputs(NULL, NULL, options.json);
   code = code == SB_EXIT_DONE ? check_exports(options.exports, &problem) : code;
-  return code == SB_EXIT_DONE ? solve_and_show(&problem, index, &options, model, argv[1]) : code;
+  return code == SB_EXIT_DONE ? solve_fit_and_show(&problem, index, &options, model, argv[1])
+                              : code;
 }

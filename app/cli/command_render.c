@@ -45,8 +45,8 @@ static void on_picture(void *data, size_t done, size_t total) {
 }
 
 // Runs what the view needs. An engine's status; `*run` may hold a partial run.
-static SbStatus compute(SbRun **run, const SbModel *model, const SbRenderView *view,
-                        SbReport *report) {
+static SbStatus compute_render(SbRun **run, const SbModel *model, const SbRenderView *view,
+                               SbReport *report) {
   // What is drawn decides what is computed, not what the scene would show by itself.
   const SbPlanWishes wishes = {.views = view->computes,
                                .studies = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES),
@@ -71,7 +71,8 @@ static int compute_pins(Pins *pins, const SbDocument *document, SbRenderRequest 
       continue;
     }
     pins->name[i] = sb_pin_name(document, i);
-    const SbStatus status = compute(&pins->run[i], model, sb_render_view(how->view), &report);
+    const SbStatus status =
+        compute_render(&pins->run[i], model, sb_render_view(how->view), &report);
     code = MAX(code, sb_cli_status(status, &report));
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
       how->pin[how->pin_count++] = (SbRenderPin){pins->run[i], pins->name[i], (int)i};
@@ -269,7 +270,7 @@ static int render_file(SbCliFiles *files, const SbCliFile *file, void *data) {
     }
     SbRun *run = NULL;
     SbReport report = {0};
-    SbStatus status = compute(&run, model, sb_render_view(request.how.view), &report);
+    SbStatus status = compute_render(&run, model, sb_render_view(request.how.view), &report);
     code = sb_cli_status(status, &report);
     Pins pins = {0};
     if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {

@@ -11,7 +11,7 @@ typedef struct {
   char *output, *measured, *jobs;
   char **settings;
   int threads;
-} Options;
+} ReportOptions;
 
 static bool on_page(void *data, int done, int count) {
   sb_progress_update(data, (double)done / count);
@@ -40,7 +40,7 @@ static int write_pages(const char *output, const SbReportScene *scene, const SbR
 // ---- A scene ----
 
 static int report_run(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
-                      const Options *options) {
+                      const ReportOptions *options) {
   SbCaseVerdict verdict[SB_VERDICT_COUNT];
   const SbStatus judged = sb_cli_judge(verdict, run, document);
   g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
@@ -70,7 +70,7 @@ static int report_run(const SbRun *run, const SbDocument *document, const SbMeas
                                    : SB_EXIT_NOT_CONVERGED;
 }
 
-static int report_scene(const char *path, const Options *options) {
+static int report_scene(const char *path, const ReportOptions *options) {
   SbModel *model = NULL;
   g_autoptr(SbDocument) document = sb_cli_open(&model, path, options->settings);
   if (document == NULL) {
@@ -111,10 +111,10 @@ static int answered(void *data, const SbCliAnswers *of) {
     return SB_EXIT_INTERRUPTED;
   }
   const SbReportStudy study = {of->study, of->value, of->drawn, of->answers};
-  return write_pages(((const Options *)data)->output, NULL, &study);
+  return write_pages(((const ReportOptions *)data)->output, NULL, &study);
 }
 
-static int report_study(const char *path, const Options *options) {
+static int report_study(const char *path, const ReportOptions *options) {
   g_autoptr(SbStudyFile) study = sb_cli_open_study(path, options->settings);
   if (study == NULL) {
     return SB_EXIT_INPUT;
@@ -139,7 +139,7 @@ static int report_study(const char *path, const Options *options) {
 }
 
 int sb_command_report(int argc, char **argv) {
-  Options options = {0};
+  ReportOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output, "The pages, a .pdf or -",
        "OUT.pdf"},

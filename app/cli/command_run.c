@@ -9,11 +9,11 @@ typedef struct {
   char **settings;
   SbCliPlots plots;
   gboolean all;
-} Options;
+} RunOptions;
 
 // Checks before the work whether all outputs can be written. Returns an exit code.
-static int check_outputs(const SbCliFiles *files, void *data) {
-  const Options *options = data;
+static int check_run_outputs(const SbCliFiles *files, void *data) {
+  const RunOptions *options = data;
   g_autoptr(GPtrArray) all = g_ptr_array_new_with_free_func(g_free);
   for (int i = 0; i < files->count; i++) {
     const SbCliFile *file = &files->file[i];
@@ -34,7 +34,7 @@ static int check_outputs(const SbCliFiles *files, void *data) {
 }
 
 // Writes or prints what was computed; an exit code.
-static int write_results(SbCliFiles *files, const SbCliFile *file, const Options *options,
+static int write_results(SbCliFiles *files, const SbCliFile *file, const RunOptions *options,
                          const SbRun *run, const SbResultsInfo *info) {
   g_autofree char *json = sb_results_run(run, info);
   SbResultsFiles all = {run, json, info->studies, info->study_count};
@@ -76,8 +76,8 @@ static bool has_memory(const SbCliFile *file, bool studies) {
 }
 
 // Computes one file's run, cases and studies, and writes them. An exit code.
-static int run_file(SbCliFiles *files, const SbCliFile *file, void *data) {
-  const Options *options = data;
+static int run_one_file(SbCliFiles *files, const SbCliFile *file, void *data) {
+  const RunOptions *options = data;
   const SbModel *model = file->model;
   if (!sb_cli_quiet() && sb_document_kind(file->document) == SB_DOCUMENT_VALVE &&
       sb_document_path(file->document) != NULL) {
@@ -134,7 +134,7 @@ static int run_file(SbCliFiles *files, const SbCliFile *file, void *data) {
 }
 
 int sb_command_run(int argc, char **argv) {
-  Options options = {0};
+  RunOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.folder,
        "Folder for results.json, cycle.csv, profiles.csv, and life or study tables; of several "
@@ -150,7 +150,7 @@ int sb_command_run(int argc, char **argv) {
       {0},
   };
   const bool good = sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL);
-  const SbCliFilesWork work = {options.settings, options.folder, options.json_target,
-                               check_outputs,    run_file,       &options};
+  const SbCliFilesWork work = {options.settings,  options.folder, options.json_target,
+                               check_run_outputs, run_one_file,   &options};
   return good ? sb_cli_files_run(argc, argv, &work) : SB_EXIT_INPUT;
 }

@@ -11,7 +11,7 @@ typedef struct {
   char *parameters, *figures, *json;
   char **settings;
   GArray *parameter, *figure; // SbParamId, int: asked for, else all
-} Options;
+} SensitivityOptions;
 
 static void take(GArray *list, int index) {
   for (guint i = 0; i < list->len; i++) {
@@ -50,7 +50,7 @@ static int read_list(GArray *out, const char *option, const char *text, int (*fi
   return SB_EXIT_DONE;
 }
 
-static int read_options(Options *options) {
+static int read_sensitivity_options(SensitivityOptions *options) {
   options->parameter = g_array_new(FALSE, FALSE, sizeof(int));
   options->figure = g_array_new(FALSE, FALSE, sizeof(int));
   int code = SB_EXIT_DONE;
@@ -86,8 +86,8 @@ static int read_options(Options *options) {
 // ---- What people read ----
 
 // Adds a figure: its value, the parameters of the largest effect, and those without a derivative.
-static void add_figure(SbTable *table, const SbGradient *gradient, size_t figure,
-                       const SbModel *model) {
+static void add_sensitivity_figure(SbTable *table, const SbGradient *gradient, size_t figure,
+                                   const SbModel *model) {
   enum { ROWS = 12 };
   const int index = sb_gradient_figure(gradient, figure);
   const double value = sb_gradient_value(gradient, figure);
@@ -126,7 +126,7 @@ static void add_figure(SbTable *table, const SbGradient *gradient, size_t figure
 }
 
 // Prints the figures of short tables, or all that were requested.
-static void print_table(const SbGradient *gradient, const SbCliFile *file, bool asked) {
+static void print_sensitivity_table(const SbGradient *gradient, const SbCliFile *file, bool asked) {
   static const SbTableColumn columns[] = {{.layout = "  %-34s"},
                                           {.layout = " %14s"},
                                           {.layout = " per %-10s"},
@@ -135,7 +135,7 @@ static void print_table(const SbGradient *gradient, const SbCliFile *file, bool 
   for (size_t i = 0; i < sb_gradient_figures(gradient); i++) {
     const bool brief = sb_figure(sb_gradient_figure(gradient, i))->brief;
     if (asked || (brief && !isnan(sb_gradient_value(gradient, i)))) {
-      add_figure(table, gradient, i, file->model);
+      add_sensitivity_figure(table, gradient, i, file->model);
     }
   }
   printf("%s\n", sb_document_title(file->document));
@@ -211,7 +211,7 @@ static void on_progress(void *data, size_t done, size_t count) {
 }
 
 static int differentiate(SbCliFiles *files, const SbCliFile *file, void *data) {
-  const Options *options = data;
+  const SensitivityOptions *options = data;
   if (!sb_cli_has_memory(file->model)) {
     return SB_EXIT_IO;
   }
@@ -238,7 +238,7 @@ static int differentiate(SbCliFiles *files, const SbCliFile *file, void *data) {
     g_ptr_array_add(files->json, make_json(gradient, file->full));
   } else if (gradient != NULL && !sb_cli_quiet()) {
     sb_cli_files_head(files);
-    print_table(gradient, file, options->figures != NULL);
+    print_sensitivity_table(gradient, file, options->figures != NULL);
   }
   sb_gradient_destroy(gradient);
   sb_evaluator_destroy(evaluator);
@@ -246,7 +246,7 @@ static int differentiate(SbCliFiles *files, const SbCliFile *file, void *data) {
 }
 
 int sb_command_sensitivity(int argc, char **argv) {
-  Options options = {0};
+  SensitivityOptions options = {0};
   const GOptionEntry entries[] = {
       {"parameters", 0, 0, G_OPTION_ARG_FILENAME, &options.parameters,
        "Parameters, with commas between them; default every real one (sealbench list params)",
@@ -260,7 +260,7 @@ int sb_command_sensitivity(int argc, char **argv) {
   if (!sb_cli_parse(&argc, &argv, entries, 1, SB_CLI_FILES_MAX, NULL)) {
     return SB_EXIT_INPUT;
   }
-  int code = read_options(&options);
+  int code = read_sensitivity_options(&options);
   const SbCliFilesWork work = {options.settings, NULL, options.json, NULL, differentiate, &options};
   code = code == SB_EXIT_DONE ? sb_cli_files_run(argc, argv, &work) : code;
   g_array_unref(options.parameter);

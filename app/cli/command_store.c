@@ -10,7 +10,7 @@
 
 typedef struct {
   char *output, *csv, *json;
-} Options;
+} StoreOptions;
 
 // ---- check ----
 
@@ -20,10 +20,10 @@ typedef struct {
   guint64 rows, damaged;
   guint64 other;   // of another engine
   guint64 unnamed; // whose list of names is damaged
-} Check;
+} StoreCheck;
 
 static bool see_row(void *data, const SbStoreRow *row) {
-  Check *check = data;
+  StoreCheck *check = data;
   check->rows++;
   check->unnamed += row->damage == NULL && row->list == NULL;
   check->other += row->list != NULL && strcmp(row->list->engine, sb_engine_identity()->source) != 0;
@@ -43,7 +43,7 @@ static bool see_row(void *data, const SbStoreRow *row) {
   return true;
 }
 
-static void print_check(const Check *check, int format) {
+static void print_store_check(const StoreCheck *check, int format) {
   printf("%s: %" G_GUINT64_FORMAT " rows, %" G_GUINT64_FORMAT " damaged", check->path, check->rows,
          check->damaged);
   if (check->other > 0 && format >= 2) {
@@ -52,9 +52,9 @@ static void print_check(const Check *check, int format) {
   putchar('\n');
 }
 
-static int check_store(const Options *options, const char *path, SbStore *store) {
+static int check_store(const StoreOptions *options, const char *path, SbStore *store) {
   SbJson json;
-  Check check = {.path = path};
+  StoreCheck check = {.path = path};
   const int format = sb_store_format(store);
   g_autoptr(GError) structure = NULL;
   if (options->json != NULL) {
@@ -97,14 +97,14 @@ static int check_store(const Options *options, const char *path, SbStore *store)
     g_autofree char *text = sb_json_finish(&json);
     code = sb_cli_emit(text, options->json);
   } else if (!sb_cli_quiet()) {
-    print_check(&check, format);
+    print_store_check(&check, format);
   }
   return sound ? code : MAX(code, SB_EXIT_INPUT);
 }
 
 // ---- recover ----
 
-static int recover_store(const Options *options, const char *path, SbStore *store) {
+static int recover_store(const StoreOptions *options, const char *path, SbStore *store) {
   GError *error = NULL;
   guint64 saved = 0;
   if (options->output == NULL) {
@@ -138,7 +138,7 @@ typedef struct {
   guint64 damaged;
 } Export;
 
-static void add_names(GPtrArray *columns, char **names) {
+static void add_store_names(GPtrArray *columns, char **names) {
   for (; *names != NULL; names++) {
     if (!g_ptr_array_find_with_equal_func(columns, *names, g_str_equal, NULL)) {
       g_ptr_array_add(columns, g_strdup(*names));
@@ -149,8 +149,8 @@ static void add_names(GPtrArray *columns, char **names) {
 static bool see_columns(void *data, const SbStoreRow *row) {
   Export *out = data;
   if (row->list != NULL && row->damage == NULL) {
-    add_names(out->parameter, row->list->parameter);
-    add_names(out->figure, row->list->figure);
+    add_store_names(out->parameter, row->list->parameter);
+    add_store_names(out->figure, row->list->figure);
   }
   return true;
 }
@@ -268,7 +268,7 @@ static int write_json(Export *out, const char *target, const char *path, SbStore
   return sb_cli_emit(text, target);
 }
 
-static int export_store(const Options *options, const char *path, SbStore *store) {
+static int export_store(const StoreOptions *options, const char *path, SbStore *store) {
   const bool named_json = options->output != NULL && sb_output_ends_in(options->output, ".json");
   const char *json = options->json != NULL ? options->json : named_json ? options->output : NULL;
   const char *csv = options->csv != NULL                     ? options->csv
@@ -315,10 +315,10 @@ static int export_store(const Options *options, const char *path, SbStore *store
 
 static const struct {
   const char *name;
-  int (*main)(const Options *options, const char *path, SbStore *store);
+  int (*main)(const StoreOptions *options, const char *path, SbStore *store);
 } actions[] = {{"check", check_store}, {"recover", recover_store}, {"export", export_store}};
 
-static int run_action(const Options *options, const char *name, const char *path) {
+static int run_action(const StoreOptions *options, const char *name, const char *path) {
   size_t at = 0;
   while (at < G_N_ELEMENTS(actions) && strcmp(actions[at].name, name) != 0) {
     at++;
@@ -340,7 +340,7 @@ static int run_action(const Options *options, const char *name, const char *path
 }
 
 int sb_command_store(int argc, char **argv) {
-  Options options = {0};
+  StoreOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.output,
        "recover: the new store; export: a file that ends in .csv or .json", "FILE"},

@@ -20,7 +20,7 @@ typedef struct {
   int threads;
   size_t shard_index, shard_count; // from 0; count 0: no shards
   SbCliPlots plots;
-} Options;
+} StudyOptions;
 
 // A whole number and nothing else.
 static bool read_whole(int *out, const char *text, int most) {
@@ -41,7 +41,7 @@ bool sb_cli_jobs(int *threads, const char *text) {
   return true;
 }
 
-static int read_options(Options *options) {
+static int read_study_options(StudyOptions *options) {
   if (!sb_cli_jobs(&options->threads, options->jobs)) {
     return SB_EXIT_INPUT;
   }
@@ -59,7 +59,7 @@ static int read_options(Options *options) {
 }
 
 // A store that is there is added to; it must not be what the study is read from.
-static int check_targets(const Options *options, const char *store) {
+static int check_targets(const StudyOptions *options, const char *store) {
   GError *error = NULL;
   if (store != NULL && !sb_store_check_name(store, &error)) {
     return sb_cli_error(error);
@@ -232,8 +232,8 @@ static int print_statistics(const SbStudyFile *study, const SbAnswers *answers) 
   return SB_EXIT_DONE;
 }
 
-static int print_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
-                       const SbAnswers *answers) {
+static int print_study_table(const SbStudyFile *study, const SbStudyDrawn *drawn,
+                             const SbAnswers *answers) {
   SbReport report = {0};
   printf("%s: %s, %zu samples\n", study->title, sb_study_method_name(study->method),
          study->samples);
@@ -279,7 +279,7 @@ static void plot(const SbStudyFile *study, const SbAnswers *answers) {
   }
 }
 
-static int write_outputs(const Options *options, const SbCliAnswers *of) {
+static int write_outputs(const StudyOptions *options, const SbCliAnswers *of) {
   const SbStudyFile *study = of->study;
   const SbStudyDrawn *drawn = of->drawn;
   const SbAnswers *answers = of->answers;
@@ -303,7 +303,7 @@ static int write_outputs(const Options *options, const SbCliAnswers *of) {
   if (sb_cli_quiet() || streamed) {
     return SB_EXIT_DONE;
   }
-  const int code = print_table(study, drawn, answers);
+  const int code = print_study_table(study, drawn, answers);
   print_warnings(answers);
   if (of->store != NULL) {
     printf("  answers in %s (-o STORE chooses another file)\n", of->store);
@@ -334,7 +334,7 @@ static int check_scripted(const char *what, const char *text) {
 }
 
 // The job script of an array of shards, each with a store of its own, on one thread each.
-static int emit_slurm(const Options *options, const SbStudyFile *study) {
+static int emit_slurm(const StudyOptions *options, const SbStudyFile *study) {
   if (options->csv != NULL || options->json != NULL) {
     return sb_cli_fail("--emit-slurm: computes nothing, so there is nothing for %s; merge the "
                        "stores of its jobs first",
@@ -389,11 +389,11 @@ static int emit_slurm(const Options *options, const SbStudyFile *study) {
                                                                      : sb_cli_error(error);
 }
 
-static int answered(void *data, const SbCliAnswers *of) {
+static int study_answered(void *data, const SbCliAnswers *of) {
   return write_outputs(data, of);
 }
 
-static int study_file(const Options *options, const SbStudyFile *study) {
+static int study_file(const StudyOptions *options, const SbStudyFile *study) {
   g_autofree char *path = sb_cli_store_path(options->store, study);
   const int code = sb_cli_answers_elsewhere() ? SB_EXIT_DONE : check_targets(options, path);
   if (code != SB_EXIT_DONE) {
@@ -403,11 +403,11 @@ static int study_file(const Options *options, const SbStudyFile *study) {
                         .threads = options->threads,
                         .shard = options->shard_index,
                         .shards = options->shard_count};
-  return sb_cli_answer(study, &ask, answered, (void *)options);
+  return sb_cli_answer(study, &ask, study_answered, (void *)options);
 }
 
 int sb_command_study(int argc, char **argv) {
-  Options options = {0};
+  StudyOptions options = {0};
   const GOptionEntry entries[] = {
       {"output", 'o', 0, G_OPTION_ARG_FILENAME, &options.store,
        "Store of the answers, added to if it exists; default NAME.store next to the study file, or "
@@ -428,7 +428,7 @@ int sb_command_study(int argc, char **argv) {
   };
   int code = SB_EXIT_INPUT;
   if (sb_cli_parse(&argc, &argv, entries, 1, 1, NULL) &&
-      (code = read_options(&options)) == SB_EXIT_DONE) {
+      (code = read_study_options(&options)) == SB_EXIT_DONE) {
     g_autoptr(SbStudyFile) study = sb_cli_open_study(argv[1], options.settings);
     code = study == NULL           ? SB_EXIT_INPUT
            : options.slurm != NULL ? emit_slurm(&options, study)

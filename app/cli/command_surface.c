@@ -13,11 +13,11 @@ typedef struct {
   char *channel, *decimal, *spacing, *unit, *lateral_unit, *json, *scene, *output, *plot;
   gboolean ignore_mask;
   SbSurfaceChoices choices;
-} Options;
+} SurfaceOptions;
 
 // ---- Options ----
 
-static int read_options(Options *options) {
+static int read_surface_options(SurfaceOptions *options) {
   const struct {
     const char *name, *text;
   } named[] = {
@@ -180,7 +180,7 @@ static void print_cutoffs(const SbScanFigures *figures) {
   sb_cli_table(table, NULL);
 }
 
-static void print_table(const SbSurface *surface) {
+static void print_surface_table(const SbSurface *surface) {
   const char *reason = NULL;
   g_auto(GStrv) settings = sb_surface_settings(&reason, surface);
   print_origin(surface);
@@ -206,7 +206,7 @@ static void print_table(const SbSurface *surface) {
 #define ORIGIN "# Scan: "
 
 // A copy of the scene with the surface and, above its keys, where that comes from. An exit code.
-static int write_scene(const SbSurface *surface, const Options *options) {
+static int write_surface_scene(const SbSurface *surface, const SurfaceOptions *options) {
   const char *reason = NULL;
   g_auto(GStrv) settings = sb_surface_settings(&reason, surface);
   if (settings == NULL) {
@@ -241,7 +241,7 @@ static int write_scene(const SbSurface *surface, const Options *options) {
 
 // ---- The command ----
 
-static int compute(const char *path, Options *options) {
+static int compute_surface(const char *path, SurfaceOptions *options) {
   GError *error = NULL;
   SbScan scan;
   if (!sb_scan_read(&scan, path, &options->choices.scan, &error)) {
@@ -261,7 +261,7 @@ static int compute(const char *path, Options *options) {
   code = sb_cli_status(status, &named);
   const SbSurface surface = {path, &scan, &options->choices.heights, figures};
   if (code == SB_EXIT_DONE && options->scene != NULL) {
-    code = write_scene(&surface, options);
+    code = write_surface_scene(&surface, options);
   }
   if (code == SB_EXIT_DONE && options->plot != NULL &&
       !sb_surface_still(&surface, options->plot, &error)) {
@@ -271,7 +271,7 @@ static int compute(const char *path, Options *options) {
     g_autofree char *json = sb_surface_json(&surface);
     code = sb_cli_emit(json, options->json);
   } else if (code == SB_EXIT_DONE && !sb_cli_quiet()) {
-    print_table(&surface);
+    print_surface_table(&surface);
   }
   sb_scan_figures_clear(figures);
   sb_scan_clear(&scan);
@@ -279,7 +279,7 @@ static int compute(const char *path, Options *options) {
 }
 
 int sb_command_surface(int argc, char **argv) {
-  Options options = {0};
+  SurfaceOptions options = {0};
   const GOptionEntry entries[] = {
       {"form", 0, 0, G_OPTION_ARG_FILENAME, &options.form,
        "Form to remove: none, plane (default), quadratic or cylinder", "FORM"},
@@ -315,10 +315,10 @@ int sb_command_surface(int argc, char **argv) {
   if (sb_cli_parse(
           &argc, &argv, entries, 1, 1,
           "A scan is a text of heights (matrix, x z or x y z), .gwy, .sur, .sdf or .x3p.")) {
-    code = read_options(&options);
+    code = read_surface_options(&options);
     if (code == SB_EXIT_DONE) {
       g_autofree char *path = sb_shipped_resolve(argv[1], SB_SHIPPED_FOR_IMPORT);
-      code = compute(path, &options);
+      code = compute_surface(path, &options);
     }
   }
   sb_surface_choices_clear(&options.choices);

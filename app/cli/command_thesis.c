@@ -29,7 +29,7 @@ static int list_items(const char *json) {
 typedef struct {
   SbThesisItem *const *items;
   size_t count;
-} Files;
+} ThesisFiles;
 
 static bool add_item(SbOutputFolder *out, const SbThesisItem *item, GError **error) {
   FILE *stream;
@@ -81,8 +81,8 @@ static bool add_index(SbOutputFolder *out, SbThesisItem *const *items, size_t co
   return true;
 }
 
-static bool fill_folder(SbOutputFolder *folder, void *data, GError **error) {
-  const Files *files = data;
+static bool fill_thesis_folder(SbOutputFolder *folder, void *data, GError **error) {
+  const ThesisFiles *files = data;
   bool good = true;
   for (size_t i = 0; good && i < files->count; i++) {
     good = add_item(folder, files->items[i], error);
@@ -121,7 +121,7 @@ typedef struct {
   gint done;
 } Work;
 
-static void compute(void *data, void *user) {
+static void compute_thesis(void *data, void *user) {
   Job *job = data;
   Work *work = user;
   job->item = sb_thesis_compute(job->name, work->threads, work->runs, sb_cli_interrupted, NULL,
@@ -135,7 +135,7 @@ static void compute_all(Work *work, int threads) {
   sb_progress_start(&progress, "");
   work->threads = work->jobs->len > 1 ? 1 : threads;
   GThreadPool *pool =
-      g_thread_pool_new(compute, work, work->jobs->len > 1 ? threads : 1, FALSE, NULL);
+      g_thread_pool_new(compute_thesis, work, work->jobs->len > 1 ? threads : 1, FALSE, NULL);
   for (guint i = 0; i < work->jobs->len; i++) {
     (void)g_thread_pool_push(pool, work->jobs->pdata[i], NULL);
   }
@@ -148,7 +148,7 @@ static void compute_all(Work *work, int threads) {
 }
 
 // What must be said of the results: an exit code.
-static int judge(const Work *work) {
+static int judge_thesis(const Work *work) {
   int code = SB_EXIT_DONE;
   for (guint i = 0; i < work->jobs->len; i++) {
     const Job *job = work->jobs->pdata[i];
@@ -214,10 +214,10 @@ static int run(char **items, const char *name, int threads, const char *folder,
         done[count++] = job->item;
       }
     }
-    code = judge(&work);
-    Files files = {done, count};
+    code = judge_thesis(&work);
+    ThesisFiles files = {done, count};
     const int written = folder != NULL && count > 0
-                            ? sb_cli_write_folder(folder, "thesis", fill_folder, &files)
+                            ? sb_cli_write_folder(folder, "thesis", fill_thesis_folder, &files)
                             : SB_EXIT_DONE;
     code = written != SB_EXIT_DONE ? written : code;
     if (target != NULL && count > 0 && written == SB_EXIT_DONE) {

@@ -9,8 +9,8 @@ static const char *const colors[] = {"none", "16", "256", "truecolor"};
 static const char *const pictures[] = {"auto",   "sixel", "kitty", "iterm",
                                        "blocks", "lines", "none"};
 
-static bool choose(int *out, const char *option, const char *text, const char *const *names,
-                   size_t count) {
+static bool choose_terminal(int *out, const char *option, const char *text,
+                            const char *const *names, size_t count) {
   g_autoptr(GString) list = g_string_new(NULL);
   for (size_t i = 0; i < count; i++) {
     if (strcmp(names[i], text) == 0) {
@@ -38,9 +38,10 @@ int sb_command_tui(int argc, char **argv) {
   int code = SB_EXIT_INPUT;
   int chosen_colors = (int)sb_colors_of_environment(), chosen_pictures = 0;
   if (sb_cli_parse(&argc, &argv, entries, 0, 1, NULL) &&
-      (color == NULL || choose(&chosen_colors, "--colors", color, colors, G_N_ELEMENTS(colors))) &&
-      (picture == NULL ||
-       choose(&chosen_pictures, "--pictures", picture, pictures, G_N_ELEMENTS(pictures)))) {
+      (color == NULL ||
+       choose_terminal(&chosen_colors, "--colors", color, colors, G_N_ELEMENTS(colors))) &&
+      (picture == NULL || choose_terminal(&chosen_pictures, "--pictures", picture, pictures,
+                                          G_N_ELEMENTS(pictures)))) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
     const char *path = argc > 1 ? argv[1] : NULL;
     const SbWorkbenchOptions options = {.path = path,

@@ -118,7 +118,7 @@ void sb_cli_files_head(SbCliFiles *files) {
 }
 
 // Writes the documents: that of the only operand, or an array of them. An exit code.
-static int emit(const GPtrArray *json, int count, const char *target) {
+static int emit_file(const GPtrArray *json, int count, const char *target) {
   if (target == NULL || json->len == 0) {
     return SB_EXIT_DONE;
   }
@@ -146,7 +146,7 @@ int sb_cli_files_run(int argc, char **argv, const SbCliFilesWork *work) {
       const int code = work->work(&files, file, work->data);
       files.code = MAX(files.code, code);
     }
-    const int written = emit(files.json, files.count, work->json);
+    const int written = emit_file(files.json, files.count, work->json);
     files.code = MAX(files.code, written);
   }
   close_files(&files);

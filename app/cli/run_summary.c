@@ -14,7 +14,7 @@
 #include <unistd.h>
 
 enum {
-  COLUMNS = 80,
+  SUMMARY_COLUMNS = 80,
   LOOP_LINES_MIN = 5, // of the loop: a blank line, the heading, three of dots
   LOOP_LINES_MAX = 14,
   VERDICT_WIDTH = 8,
@@ -31,7 +31,7 @@ static const char *const key_figures[] = {
 // ---- Items: lines that may be wrapped ----
 
 // Appends "  label   text" with the text in a column of its own.
-static void add_item(GPtrArray *items, const char *label, int width, const char *text) {
+static void add_summary_item(GPtrArray *items, const char *label, int width, const char *text) {
   g_ptr_array_add(
       items, g_strdup_printf("  %s%*s  %s", label, MAX(width - sb_wrap_width(label), 0), "", text));
 }
@@ -108,7 +108,7 @@ static void add_verdict(GPtrArray *items, const SbSummary *summary, const SbCase
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     if (verdict[kind].of.figure >= 0) {
       g_autofree char *text = sb_run_verdict_text(summary, kind, &verdict[kind]);
-      add_item(items, sb_verdict_word(kind), VERDICT_WIDTH, text);
+      add_summary_item(items, sb_verdict_word(kind), VERDICT_WIDTH, text);
     }
   }
 }
@@ -169,7 +169,7 @@ static void add_figures(GPtrArray *items, const SbCliRunText *of) {
     g_autofree char *label = sb_figure_label(index[i]);
     g_autofree char *missing = missing_text(summary, index, i);
     g_autofree char *number = missing == NULL ? number_text(summary, index[i]) : NULL;
-    add_item(items, label, width, missing != NULL ? missing : number);
+    add_summary_item(items, label, width, missing != NULL ? missing : number);
   }
 }
 
@@ -195,7 +195,7 @@ static void add_remarks(GPtrArray *items, const SbCliRunText *of, const SbSummar
 void sb_cli_run_summary(const SbCliRunText *of) {
   const SbSummary *summary = sb_run_summary(of->run);
   const int terminal = sb_wrap_columns(STDOUT_FILENO);
-  const int columns = terminal > 0 ? terminal : COLUMNS;
+  const int columns = terminal > 0 ? terminal : SUMMARY_COLUMNS;
   const int room = SB_CLI_SUMMARY_LINES - (of->folder != NULL);
   g_autoptr(GPtrArray) items = g_ptr_array_new_with_free_func(g_free);
   g_ptr_array_add(items, g_strdup(of->title));
@@ -206,7 +206,7 @@ void sb_cli_run_summary(const SbCliRunText *of) {
   add_remarks(items, of, summary);
   // The loop takes the lines that the text leaves. A narrow terminal gets more lines instead of
   // numbers that are cut.
-  const bool narrow = columns < COLUMNS;
+  const bool narrow = columns < SUMMARY_COLUMNS;
   const int left = room - print_items(items, columns, narrow ? INT_MAX : room);
   if (!of->plots->off && (narrow || left >= LOOP_LINES_MIN)) {
     sb_cli_plot_run(of->run, of->measured, CLAMP(left, LOOP_LINES_MIN, LOOP_LINES_MAX) - 1);

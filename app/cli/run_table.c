@@ -6,7 +6,7 @@
 #include "app/export/run_tables.h"
 
 // Prints a table behind a heading (NULL: none) and frees it.
-static void print_table(const char *heading, SbTable *table) {
+static void print_run_table(const char *heading, SbTable *table) {
   if (heading != NULL) {
     printf("%s\n", heading);
   }
@@ -17,11 +17,11 @@ static void print_table(const char *heading, SbTable *table) {
 void sb_cli_run_table(const SbCliRunText *of) {
   const SbSummary *summary = sb_run_summary(of->run);
   printf("%s\n", of->title);
-  print_table(NULL, sb_run_figures(of->run));
+  print_run_table(NULL, sb_run_figures(of->run));
   if (sb_device(sb_run_model(of->run))->stem) {
-    print_table("Stages", sb_run_stages(summary));
-    print_table(NULL, sb_run_seals(summary));
-    print_table("Verdict", sb_run_verdict(summary, of->verdict));
+    print_run_table("Stages", sb_run_stages(summary));
+    print_run_table(NULL, sb_run_seals(summary));
+    print_run_table("Verdict", sb_run_verdict(summary, of->verdict));
   }
   sb_cli_warnings(&summary->warnings);
   printf("Solver\n");

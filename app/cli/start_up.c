@@ -13,8 +13,8 @@
 #include <unistd.h>
 
 static const char program[] = "/proc/self/exe";
-static const char *const commands[SB_START_UP_COMMANDS] = {"--version", "--help", "run --help",
-                                                           "list params"};
+static const char *const started_commands[SB_START_UP_COMMANDS] = {"--version", "--help",
+                                                                   "run --help", "list params"};
 
 // Processor time of one start [s]; negative if it failed.
 static double start(const char *path, const char *words, int out, char **environment) {
@@ -72,7 +72,7 @@ bool sb_start_up_measure(SbStartUp *out, int repeats) {
   out->shared_objects = count_shared_objects();
   bool good = out->empty_s >= 0 && out->shared_objects > 0;
   for (int i = 0; i < SB_START_UP_COMMANDS && good; i++) {
-    out->processor_s[i] = measure(program, commands[i], repeats);
+    out->processor_s[i] = measure(program, started_commands[i], repeats);
     good = out->processor_s[i] >= 0;
   }
   return good;
@@ -86,7 +86,7 @@ void sb_start_up_put(SbJson *json, const SbStartUp *of) {
   sb_json_array(json, "commands");
   for (int i = 0; i < SB_START_UP_COMMANDS; i++) {
     sb_json_object(json, NULL);
-    sb_json_string(json, "command", commands[i]);
+    sb_json_string(json, "command", started_commands[i]);
     sb_json_number(json, "processor_s", of->processor_s[i]);
     sb_json_object_end(json);
   }
@@ -99,6 +99,6 @@ void sb_start_up_print(const SbStartUp *of) {
          "objects)\n",
          1e3 * of->limit_s, 1e3 * of->empty_s, of->shared_objects);
   for (int i = 0; i < SB_START_UP_COMMANDS; i++) {
-    printf("  %-14s %8.3f ms\n", commands[i], 1e3 * of->processor_s[i]);
+    printf("  %-14s %8.3f ms\n", started_commands[i], 1e3 * of->processor_s[i]);
   }
 }

@@ -87,12 +87,12 @@ static SbStore *open_store(const char *path, const SbStudyFile *study, GError **
   return store;
 }
 
-static void on_progress(void *data, size_t done, size_t of) {
+static void on_answers_progress(void *data, size_t done, size_t of) {
   sb_progress_update(data, of > 0 ? (double)done / (double)of : 1);
 }
 
 // Exit code of samples that failed: of a solver 2; a design that cannot be is an answer.
-static int judge(const SbAnswers *answers) {
+static int judge_answers(const SbAnswers *answers) {
   size_t count[256] = {0};
   for (size_t i = 0; i < answers->samples; i++) {
     count[answers->status[i]]++;
@@ -109,8 +109,9 @@ static int judge(const SbAnswers *answers) {
   return unsolved > 0 ? SB_EXIT_NOT_CONVERGED : SB_EXIT_DONE;
 }
 
-static int solve(const SbStudyFile *study, const SbCliAsk *ask, SbStore *store, const double *value,
-                 const SbStudyDrawn *drawn, SbCliAnswered answered, void *data) {
+static int solve_answers(const SbStudyFile *study, const SbCliAsk *ask, SbStore *store,
+                         const double *value, const SbStudyDrawn *drawn, SbCliAnswered answered,
+                         void *data) {
   SbParamId parameter[SB_VARY_MAX];
   for (guint i = 0; i < study->vary->len; i++) {
     parameter[i] = g_array_index(study->vary, SbVary, i).id;
@@ -130,7 +131,7 @@ static int solve(const SbStudyFile *study, const SbCliAsk *ask, SbStore *store, 
       .jobs = ask->threads,
       .pool = answer_pool,
       .store = store,
-      .progress = on_progress,
+      .progress = on_answers_progress,
       .cancelled = sb_cli_interrupted,
       .data = &progress,
   };
@@ -158,7 +159,7 @@ static int solve(const SbStudyFile *study, const SbCliAsk *ask, SbStore *store, 
     g_autofree char *cpus = sb_store_cpus(store);
     const SbCliAnswers of = {study, value, drawn, &answers, cpus, ask->store};
     const int written = answered(data, &of);
-    const int judged = judge(&answers);
+    const int judged = judge_answers(&answers);
     code = MAX(code, MAX(written, judged));
   }
   sb_answers_release(&answers);
@@ -209,7 +210,7 @@ int sb_cli_answer(const SbStudyFile *study, const SbCliAsk *ask, SbCliAnswered a
     code = sb_cli_error(error);
   } else {
     const SbStudyDrawn drawn = {unit, study->method == SB_METHOD_RELIABILITY ? &reliability : NULL};
-    code = solve(study, ask, store, value, &drawn, answered, data);
+    code = solve_answers(study, ask, store, value, &drawn, answered, data);
   }
   error = NULL;
   if (!sb_store_close(store, &error)) {

@@ -83,7 +83,7 @@ static void name_file(SbDocument *document, SbFileKey key, const char *name, cha
 }
 
 // Models may hold the data before, which nobody changes.
-static void put_data(SbDocument *document, SbModelData *data) {
+static void put_files_data(SbDocument *document, SbModelData *data) {
   sb_model_data_release(document->data);
   document->data = data;
   document->serial++;
@@ -124,7 +124,7 @@ void sb_document_put_drawing(SbDocument *document, const SbNamedDrawing *drawing
   }
   name_file(document, drawing->key, drawing->file.name, g_strdup(drawing->file.path),
             drawing->file.in_valve);
-  put_data(document, data);
+  put_files_data(document, data);
 }
 
 const char *sb_document_own_drawing(const SbDocument *document, SbFileKey key) {
@@ -201,6 +201,6 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
     return false;
   }
   document->valve_draws = document->valve_draws || (key == SB_FILE_GROOVE && in_valve);
-  put_data(document, data);
+  put_files_data(document, data);
   return true;
 }

@@ -106,7 +106,8 @@ static char *problem_of(SbRemarkKind kind, const char *name, const char *text) {
                                                     : NULL;
 }
 
-static Remark *find(const SbDocument *document, SbRemarkKind kind, const char *name, guint *at) {
+static Remark *find_remark(const SbDocument *document, SbRemarkKind kind, const char *name,
+                           guint *at) {
   for (*at = 0; *at < document->remark[kind]->len; (*at)++) {
     Remark *remark = document->remark[kind]->pdata[*at];
     if (strcmp(remark->name, name) == 0) {
@@ -118,11 +119,12 @@ static Remark *find(const SbDocument *document, SbRemarkKind kind, const char *n
 
 const char *sb_document_remark(const SbDocument *document, SbRemarkKind kind, const char *name) {
   guint at;
-  const Remark *remark = find(document, kind, name, &at);
+  const Remark *remark = find_remark(document, kind, name, &at);
   return remark != NULL ? remark->text : NULL;
 }
 
-static void add(SbDocument *document, SbRemarkKind kind, const char *name, const char *text) {
+static void add_remark(SbDocument *document, SbRemarkKind kind, const char *name,
+                       const char *text) {
   Remark *remark = g_new(Remark, 1);
   *remark = (Remark){g_strdup(name), g_strdup(text)};
   g_ptr_array_add(document->remark[kind], remark);
@@ -144,7 +146,7 @@ void sb_document_remarks_read(SbDocument *document, const char *shown, GPtrArray
         g_autofree char *key = g_strdup_printf("%s.%s", entry->group, entry->name);
         sb_issues_add(issues, shown, entry->line, key, NULL, "%s", problem);
       } else {
-        add(document, (SbRemarkKind)kind, entry->name, text);
+        add_remark(document, (SbRemarkKind)kind, entry->name, text);
       }
     }
   }
@@ -155,7 +157,7 @@ void sb_document_remarks_read(SbDocument *document, const char *shown, GPtrArray
 bool sb_document_put_remark(SbDocument *document, SbRemarkKind kind, const char *name,
                             const char *text, GError **error) {
   guint at;
-  Remark *remark = find(document, kind, name, &at);
+  Remark *remark = find_remark(document, kind, name, &at);
   if (text == NULL) {
     if (remark != NULL) {
       g_ptr_array_remove_index(document->remark[kind], at);
@@ -173,7 +175,7 @@ bool sb_document_put_remark(SbDocument *document, SbRemarkKind kind, const char 
     return false;
   }
   if (remark == NULL) {
-    add(document, kind, name, text);
+    add_remark(document, kind, name, text);
   } else {
     g_free(remark->text);
     remark->text = g_strdup(text);
@@ -197,7 +199,7 @@ void sb_document_take_remarks(SbDocument *document, const SbDocument *from) {
     g_ptr_array_set_size(document->remark[kind], 0);
     for (guint i = 0; i < from->remark[kind]->len; i++) {
       const Remark *remark = from->remark[kind]->pdata[i];
-      add(document, (SbRemarkKind)kind, remark->name, remark->text);
+      add_remark(document, (SbRemarkKind)kind, remark->name, remark->text);
     }
   }
   document->remarks_changed |= !same;
@@ -224,7 +226,7 @@ void sb_document_change_remarks(GArray *changes, const SbDocument *document) {
       // A line that could not be read stays.
       g_autofree char *text = unescape(entry->value);
       g_autofree char *problem = problem_of((SbRemarkKind)kind, entry->name, text);
-      if (problem == NULL && find(document, (SbRemarkKind)kind, entry->name, &at) == NULL) {
+      if (problem == NULL && find_remark(document, (SbRemarkKind)kind, entry->name, &at) == NULL) {
         change(changes, entry->group, entry->name, NULL);
       }
     }

@@ -105,7 +105,7 @@ static const char *data_name(const char *group) {
   return group[4] == ' ' ? group + 5 : "";
 }
 
-static SbData *group_of(const SbDocument *document, const char *group) {
+static SbData *group_written_to(const SbDocument *document, const char *group) {
   for (size_t i = 0; i < sb_document_data_count(document); i++) {
     SbData *data = document->measured->pdata[i];
     if (strcmp(data->name, data_name(group)) == 0) {
@@ -123,7 +123,7 @@ static void change_data(GArray *changes, const SbDocument *document, const char 
     const SbEntry *entry = document->entries->pdata[i];
     if (entry->name != NULL && sb_data_is_group(entry->group) &&
         strcmp(data_name(entry->group), first->name) == 0 &&
-        group_of(document, entry->group) == NULL) {
+        group_written_to(document, entry->group) == NULL) {
       const SbChange change = {g_strdup(entry->group), g_strdup(entry->name), NULL};
       g_array_append_val(changes, change);
     }

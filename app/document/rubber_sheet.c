@@ -47,7 +47,7 @@ char **sb_rubber_sheet_names(const char *directory) {
 }
 
 // Owned by the caller; NULL: there is none.
-static char *find(const char *name, const char *directory, GPtrArray *places) {
+static char *find_sheet(const char *name, const char *directory, GPtrArray *places) {
   const bool file = strchr(name, G_DIR_SEPARATOR) != NULL || g_str_has_suffix(name, ENDING);
   if (g_path_is_absolute(name)) {
     return g_strdup(name);
@@ -173,7 +173,7 @@ bool sb_rubber_sheet_parse(SbRubberSheet *out, const char *text, size_t length, 
 
 char *sb_rubber_sheet_find(const char *name, const char *directory) {
   g_autoptr(GPtrArray) places = folders(directory);
-  return find(name, directory, places);
+  return find_sheet(name, directory, places);
 }
 
 char *sb_rubber_sheet_read(SbRubberSheet *out, const char *name, const char *directory,

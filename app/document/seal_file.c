@@ -241,7 +241,7 @@ static bool one_arc(double *bulge, const GArray *row, guint first, guint last, d
 }
 
 // Joins rows of pieces; from a corner on, if there is one.
-static GArray *join(const GArray *points, double near) {
+static GArray *join_seal_file(const GArray *points, double near) {
   const guint n = points->len;
   const SbProfilePoint *p = (const SbProfilePoint *)(void *)points->data;
   guint begin = 0;
@@ -296,7 +296,7 @@ static bool read_section(SbSealDrawing *out, double *height, const Source *sourc
   }
   const guint pieces = points->len;
   if (pieces > SB_SEAL_POINTS_MAX) {
-    GArray *fewer = join(points, NEAR * h);
+    GArray *fewer = join_seal_file(points, NEAR * h);
     g_array_unref(points);
     points = fewer;
     point = (SbProfilePoint *)(void *)points->data;

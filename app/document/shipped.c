@@ -21,7 +21,7 @@ static char *find_from(const char *in, const char *const *places, const char *na
 }
 
 // The same search, relative to the folder of the running program.
-static char *find(const char *const *places, const char *name, bool whole) {
+static char *find_shipped(const char *const *places, const char *name, bool whole) {
   g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
   g_autofree char *in = g_path_get_dirname(program != NULL ? program : "/");
   return find_from(in, places, name, whole);
@@ -42,7 +42,7 @@ char *sb_shipped_folder(void) {
   static const char *const library_places[] = {"../share/sealbench", "../../share/sealbench",
                                                "../../../assets", NULL};
   return library_folder != NULL ? find_from(library_folder, library_places, "scenes", false)
-                                : find(places, "scenes", false);
+                                : find_shipped(places, "scenes", false);
 }
 
 char *sb_shipped_study(const char *name) {
@@ -50,13 +50,13 @@ char *sb_shipped_study(const char *name) {
   static const char *const places[] = {"../share/sealbench/studies", "../assets/studies",
                                        "../../assets/studies", "../../../assets/studies", NULL};
   g_autofree char *file = g_strconcat(name, ".study", NULL);
-  return find(places, file, true);
+  return find_shipped(places, file, true);
 }
 
 char *sb_shipped_thesis(void) {
   static const char *const places[] = {"../share/sealbench/thesis", "../assets/thesis",
                                        "../../assets/thesis", "../../../assets/thesis", NULL};
-  return find(places, "valve.scene", false);
+  return find_shipped(places, "valve.scene", false);
 }
 
 typedef struct {
@@ -136,7 +136,7 @@ char *sb_shipped_resolve(const char *operand, unsigned wanted) {
 
 char *sb_shipped_runs(void) {
   static const char *const places[] = {"../share/sealbench/runs", ".", "..", NULL};
-  return find(places, "piston.run", false);
+  return find_shipped(places, "piston.run", false);
 }
 
 GPtrArray *sb_shipped_files(SbShippedKind kind) {

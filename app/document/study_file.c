@@ -17,13 +17,13 @@ const char *sb_study_method_name(SbStudyMethod method) {
   return (unsigned)method < SB_METHOD_COUNT ? methods[method] : "";
 }
 
-static char *full_key(const SbEntry *entry) {
+static char *full_study_key(const SbEntry *entry) {
   return g_strdup_printf("%s.%s", entry->group, entry->name);
 }
 
 void sb_study_add_issue(const SbStudyReader *reader, const SbEntry *entry, const char *allowed,
                         const char *text) {
-  g_autofree char *key = full_key(entry);
+  g_autofree char *key = full_study_key(entry);
   sb_issues_add(reader->issues, reader->shown, entry->line, key, allowed, "%s", text);
 }
 

@@ -232,7 +232,7 @@ static void check_reliability(SbStudyReader *reader) {
 
 // ---- The file ----
 
-static bool read_meta(SbStudyReader *reader, char **scene) {
+static bool read_groups_meta(SbStudyReader *reader, char **scene) {
   const GPtrArray *entries = reader->entries;
   const SbEntry *first = entries->len > 0 ? entries->pdata[0] : NULL;
   if (first == NULL || strcmp(first->group, SB_META_GROUP) != 0) {
@@ -428,7 +428,7 @@ static SbStudyFile *parse(const char *text, size_t length, const char *name, con
   study->design = (SbDesignWish){.figure = SB_FIGURE_NONE, .robust = NAN, .starts = 8};
   study->design.tolerances = g_array_new(FALSE, FALSE, sizeof(SbVary));
   SbStudyReader reader = {.study = study, .entries = entries, .shown = name, .issues = issues};
-  if (read_meta(&reader, &scene_name)) {
+  if (read_groups_meta(&reader, &scene_name)) {
     if (model == NULL) {
       open_scene(&reader, scene_name, settings, directory);
     } else {

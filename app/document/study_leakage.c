@@ -12,7 +12,7 @@ static const struct {
   const char *key, *si, *shown;
   size_t offset;
   double least, most;
-} quantities[] = {
+} leakage_quantities[] = {
 #define AT(member) offsetof(SbLeakageTest, member)
     {"temperature", "K", "°C", AT(temperature), 250, 350},
     {"duration", "s", "h", AT(duration), 3600, 3.2e7},
@@ -50,19 +50,20 @@ void sb_study_read_leakage(SbStudyReader *reader, const SbEntry *entry) {
   SbStudyFile *study = reader->study;
   char *test = (char *)&study->leakage;
   double value = 0;
-  for (size_t i = 0; i < G_N_ELEMENTS(quantities); i++) {
-    if (strcmp(entry->name, quantities[i].key) == 0) {
-      const bool good =
-          sb_quantity_parse(&value, entry->value, quantities[i].si, quantities[i].shown, NULL) &&
-          value >= quantities[i].least && value <= quantities[i].most;
+  for (size_t i = 0; i < G_N_ELEMENTS(leakage_quantities); i++) {
+    if (strcmp(entry->name, leakage_quantities[i].key) == 0) {
+      const bool good = sb_quantity_parse(&value, entry->value, leakage_quantities[i].si,
+                                          leakage_quantities[i].shown, NULL) &&
+                        value >= leakage_quantities[i].least && value <= leakage_quantities[i].most;
       if (good) {
-        *(double *)(test + quantities[i].offset) = value;
+        *(double *)(test + leakage_quantities[i].offset) = value;
       } else {
-        refuse_range(
-            reader, entry,
-            sb_quantity_to_shown(quantities[i].least, quantities[i].si, quantities[i].shown),
-            sb_quantity_to_shown(quantities[i].most, quantities[i].si, quantities[i].shown),
-            quantities[i].shown);
+        refuse_range(reader, entry,
+                     sb_quantity_to_shown(leakage_quantities[i].least, leakage_quantities[i].si,
+                                          leakage_quantities[i].shown),
+                     sb_quantity_to_shown(leakage_quantities[i].most, leakage_quantities[i].si,
+                                          leakage_quantities[i].shown),
+                     leakage_quantities[i].shown);
       }
       return;
     }

@@ -15,8 +15,8 @@ static const char tolerance_forms[] = "uniform A .. B, normal MEAN, DEVIATION [w
 // stays in this file.
 enum { BAD_FORM = 100 };
 
-static bool fail(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
-static bool fail(GError **error, const char *format, ...) {
+static bool fail_vary(GError **error, const char *format, ...) G_GNUC_PRINTF(2, 3);
+static bool fail_vary(GError **error, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   if (error != NULL) {
@@ -72,13 +72,13 @@ static bool read_range(double *low, double *high, const SbVary *vary, const char
   text += strspn(text, " \t");
   const char *dots = strstr(text, "..");
   if (dots == NULL) {
-    return fail(error, "\"%s\" is not a range", text);
+    return fail_vary(error, "\"%s\" is not a range", text);
   }
   g_autofree char *first = g_strndup(text, (gsize)(dots - text));
   if (!read_value(low, vary, first, error) || !read_value(high, vary, dots + 2, error)) {
     return false;
   }
-  return *low < *high || fail(error, "the range \"%s\" does not rise", text);
+  return *low < *high || fail_vary(error, "the range \"%s\" does not rise", text);
 }
 
 // "A .. B" or "A .. B, N".
@@ -90,7 +90,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
     g_autofree char *digits = g_strstrip(g_strdup(comma + 1));
     if (!sb_number_parse(&count, digits) || count != floor(count) || count < 2 ||
         count > SB_SAMPLES_MAX) {
-      return fail(error, "\"%s\" is not a number of points (2 and more)", digits);
+      return fail_vary(error, "\"%s\" is not a number of points (2 and more)", digits);
     }
     of->count = (size_t)count;
   }
@@ -99,7 +99,7 @@ static bool read_uniform(SbVary *vary, const char *text, GError **error) {
     return false;
   }
   return of->kind != SB_DISTRIBUTION_LOGUNIFORM || of->a > 0 ||
-         fail(error, "a logarithm needs values above 0");
+         fail_vary(error, "a logarithm needs values above 0");
 }
 
 // "MEAN, DEVIATION" or "MEAN, DEVIATION within A .. B".
@@ -107,7 +107,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
   SbDistribution *of = &vary->distribution;
   const char *comma = strchr(text, ','), *within = strstr(text, " within ");
   if (comma == NULL || (within != NULL && within < comma)) {
-    return fail(error, "\"%s\" is not a mean with a deviation", text);
+    return fail_vary(error, "\"%s\" is not a mean with a deviation", text);
   }
   g_autofree char *mean = g_strndup(text, (gsize)(comma - text));
   g_autofree char *deviation = g_strstrip(
@@ -119,7 +119,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
     return false;
   }
   if (!(of->b > 0)) {
-    return fail(error, "the deviation \"%s\" is not above 0", deviation);
+    return fail_vary(error, "the deviation \"%s\" is not above 0", deviation);
   }
   of->low = -INFINITY;
   of->high = INFINITY;
@@ -129,7 +129,7 @@ static bool read_normal(SbVary *vary, const char *text, GError **error) {
     }
     // Six deviations out there is one value in 1e9.
     if (of->low > of->a + 6 * of->b || of->high < of->a - 6 * of->b) {
-      return fail(error, "the range is more than 6 deviations from the mean");
+      return fail_vary(error, "the range is more than 6 deviations from the mean");
     }
   }
   return true;
@@ -140,7 +140,7 @@ static bool add_levels(SbVary *vary, size_t before, const char *text, GError **e
   g_auto(GStrv) parts = g_strsplit(text, ",", -1);
   const size_t count = before + g_strv_length(parts);
   if (count > SB_SAMPLES_MAX / 10) {
-    return fail(error, "there are too many levels");
+    return fail_vary(error, "there are too many levels");
   }
   vary->levels = g_renew(double, vary->levels, count + 1);
   for (size_t i = before; i < count; i++) {
@@ -151,7 +151,7 @@ static bool add_levels(SbVary *vary, size_t before, const char *text, GError **e
   vary->distribution.kind = SB_DISTRIBUTION_LEVELS;
   vary->distribution.level = vary->levels;
   vary->distribution.count = count;
-  return count > 0 || fail(error, "there are no levels");
+  return count > 0 || fail_vary(error, "there are no levels");
 }
 
 static bool read_levels(SbVary *vary, const char *text, GError **error) {
@@ -168,7 +168,7 @@ static bool read_and(SbVary *vary, const char *text, const char *others,
   }
   const size_t count = of->count;
   if (count < 2 || count > SB_SAMPLES_MAX / 10) {
-    return fail(error, "\"%s\" has no number of points to add levels to", range);
+    return fail_vary(error, "\"%s\" has no number of points to add levels to", range);
   }
   vary->levels = g_new(double, count + 1);
   for (size_t i = 0; i < count; i++) {
@@ -198,12 +198,12 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
       vary->distribution.kind = forms[i].kind;
       if (vary->offset && (kind != SB_PARAM_REAL || (forms[i].kind != SB_DISTRIBUTION_UNIFORM &&
                                                      forms[i].kind != SB_DISTRIBUTION_NORMAL))) {
-        return fail(error, "\"%s\" is not a tolerance", text);
+        return fail_vary(error, "\"%s\" is not a tolerance", text);
       }
       if ((kind == SB_PARAM_CHOICE || kind == SB_PARAM_INT) &&
           forms[i].kind != SB_DISTRIBUTION_LEVELS) {
-        return fail(error, "only levels suit %s",
-                    kind == SB_PARAM_INT ? "a whole number" : "a choice");
+        return fail_vary(error, "only levels suit %s",
+                         kind == SB_PARAM_INT ? "a whole number" : "a choice");
       }
       return and != NULL && (vary->distribution.kind == SB_DISTRIBUTION_UNIFORM ||
                              vary->distribution.kind == SB_DISTRIBUTION_LOGUNIFORM)
@@ -211,7 +211,7 @@ static bool read_distribution(SbVary *vary, const char *text, GError **error) {
                  : forms[i].read(vary, text + length, error);
     }
   }
-  return fail(error, "\"%s\" is not a distribution", text);
+  return fail_vary(error, "\"%s\" is not a distribution", text);
 }
 
 void sb_study_read_vary(SbStudyReader *reader, const SbEntry *entry, GArray *list, bool offset) {

@@ -14,24 +14,24 @@ typedef struct {
   const char *at;
   int depth;
   bool good;
-} Reader;
+} TypedReader;
 
-static void skip(Reader *reader) {
+static void skip_typed(TypedReader *reader) {
   while (g_ascii_isspace(*reader->at)) {
     reader->at++;
   }
 }
 
-static bool accept(Reader *reader, char sign) {
-  skip(reader);
+static bool accept(TypedReader *reader, char sign) {
+  skip_typed(reader);
   const bool there = *reader->at == sign;
   reader->at += there;
   return there;
 }
 
-static double read_sum(Reader *reader);
+static double read_typed_sum(TypedReader *reader);
 
-static double read_factor(Reader *reader) {
+static double read_factor(TypedReader *reader) {
   if (++reader->depth > DEPTH_MAX) {
     reader->good = false;
   }
@@ -42,10 +42,10 @@ static double read_factor(Reader *reader) {
   if (accept(reader, '-')) {
     value = -read_factor(reader);
   } else if (accept(reader, '(')) {
-    value = read_sum(reader);
+    value = read_typed_sum(reader);
     reader->good = reader->good && accept(reader, ')');
   } else {
-    skip(reader);
+    skip_typed(reader);
     const size_t length = *reader->at == '+' ? 0 : sb_number_read(&value, reader->at);
     reader->good = length > 0;
     reader->at += length;
@@ -54,7 +54,7 @@ static double read_factor(Reader *reader) {
   return value;
 }
 
-static double read_product(Reader *reader) {
+static double read_typed_product(TypedReader *reader) {
   double value = read_factor(reader);
   while (reader->good) {
     if (accept(reader, '*')) {
@@ -68,13 +68,13 @@ static double read_product(Reader *reader) {
   return value;
 }
 
-static double read_sum(Reader *reader) {
-  double value = read_product(reader);
+static double read_typed_sum(TypedReader *reader) {
+  double value = read_typed_product(reader);
   while (reader->good) {
     if (accept(reader, '+')) {
-      value += read_product(reader);
+      value += read_typed_product(reader);
     } else if (accept(reader, '-')) {
-      value -= read_product(reader);
+      value -= read_typed_product(reader);
     } else {
       break;
     }
@@ -84,9 +84,9 @@ static double read_sum(Reader *reader) {
 
 // Works out what the text begins with; the rest is what stands behind it. False if nothing can be.
 static bool work_out(double *value, const char **rest, const char *text) {
-  Reader reader = {.at = text, .good = true};
-  *value = read_sum(&reader);
-  skip(&reader);
+  TypedReader reader = {.at = text, .good = true};
+  *value = read_typed_sum(&reader);
+  skip_typed(&reader);
   *rest = reader.at;
   return reader.good && isfinite(*value);
 }

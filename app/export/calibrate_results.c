@@ -45,7 +45,7 @@ static void put_curve(SbJson *json, const SbCalibratedCurve *curve) {
 }
 
 // Parameters that the fit moved to an end of their bounds: within a thousandth of their range.
-static void put_bounds(SbJson *json, const SbCalibration *of) {
+static void put_calibration_bounds(SbJson *json, const SbCalibration *of) {
   const double near = 1e-3;
   sb_json_array(json, "bounds_active");
   for (size_t j = 0; j < of->parameters; j++) {
@@ -108,7 +108,7 @@ char *sb_calibration_json(const SbCalibration *of, const SbStudyFile *study) {
     put_parameter(&json, of, j);
   }
   sb_json_object_end(&json);
-  put_bounds(&json, of);
+  put_calibration_bounds(&json, of);
   static const SbWarnings none = {0};
   sb_json_warnings(&json, of->warnings != NULL ? of->warnings : &none);
   sb_json_object(&json, "correlation");

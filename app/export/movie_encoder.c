@@ -47,7 +47,7 @@ struct SbMovieEncoder {
   bool header;
 };
 
-static SbStatus fail(SbReport *report, const char *what, int code) {
+static SbStatus fail_encoder(SbReport *report, const char *what, int code) {
   if (code == AVERROR(ENOSPC) || code == AVERROR(EDQUOT)) {
     return sb_fail(report, SB_ERROR_IO, "the disk is full");
   }
@@ -59,7 +59,7 @@ static SbStatus fail(SbReport *report, const char *what, int code) {
 // An error that the buffered output met since.
 static SbStatus check_output(SbMovieEncoder *encoder, SbReport *report) {
   int code = encoder->format->pb->error;
-  return code < 0 ? fail(report, "writing the movie", code) : SB_OK;
+  return code < 0 ? fail_encoder(report, "writing the movie", code) : SB_OK;
 }
 
 // ---- Pixels: cairo's ARGB32 to the encoder's picture ----
@@ -101,7 +101,7 @@ static void convert_palette(SbMovieEncoder *encoder, const uint8_t *pixels, size
 // MP4: the encoder holds few pictures, since for drawings like ours neither more lookahead nor
 // pictures between others make the file smaller, and one thread keeps up with the drawing.
 // clang-format off
-static const Format formats[SB_MOVIE_FORMATS] = {
+static const Format encoder_formats[SB_MOVIE_FORMATS] = {
     [SB_MOVIE_MP4] = {"mp4", "libx264", AV_PIX_FMT_YUV420P, 2,
                       {{"x264-params", "rc-lookahead=1:sync-lookahead=0"},
                        {"preset", "veryfast"},
@@ -174,18 +174,19 @@ static SbStatus set_up_codec(SbMovieEncoder *encoder, const SbMovieOptions *opti
   }
   int code = avcodec_open2(codec, found, &set);
   av_dict_free(&set);
-  return code < 0 ? fail(report, "the encoder does not open", code) : SB_OK;
+  return code < 0 ? fail_encoder(report, "the encoder does not open", code) : SB_OK;
 }
 
 const char *sb_movie_missing(SbMovieFormat format) {
   static GOnce once = G_ONCE_INIT;
   const char *why = g_once(&once, find_problem, NULL);
-  if (why != NULL || avcodec_find_encoder_by_name(formats[format].encoder) != NULL) {
+  if (why != NULL || avcodec_find_encoder_by_name(encoder_formats[format].encoder) != NULL) {
     return why;
   }
   static char *missing[SB_MOVIE_FORMATS];
   if (g_once_init_enter(&missing[format])) {
-    g_autofree char *no = g_strdup_printf("libavcodec has no encoder %s", formats[format].encoder);
+    g_autofree char *no =
+        g_strdup_printf("libavcodec has no encoder %s", encoder_formats[format].encoder);
     g_once_init_leave(&missing[format], no_movie(no));
   }
   return missing[format];
@@ -207,7 +208,8 @@ static SbStatus write_header(SbMovieEncoder *encoder, const SbMovieOptions *opti
   const int code = avformat_write_header(encoder->format, &set);
   av_dict_free(&set);
   encoder->header = code >= 0;
-  return code < 0 ? fail(report, "the movie's header", code) : check_output(encoder, report);
+  return code < 0 ? fail_encoder(report, "the movie's header", code)
+                  : check_output(encoder, report);
 }
 
 SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
@@ -219,7 +221,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
   }
   av_log_set_level(AV_LOG_QUIET);
   SbMovieEncoder *encoder = g_new0(SbMovieEncoder, 1);
-  encoder->how = &formats[options->format];
+  encoder->how = &encoder_formats[options->format];
   encoder->quantiser = encoder->how->pixels == AV_PIX_FMT_PAL8 ? sb_quantiser_create() : NULL;
   encoder->width = options->width;
   encoder->height = options->height;
@@ -227,7 +229,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
   SbStatus status = SB_OK;
   int code = avformat_alloc_output_context2(&encoder->format, NULL, encoder->how->muxer, url);
   if (code < 0) {
-    status = fail(report, "no writer of this format", code);
+    status = fail_encoder(report, "no writer of this format", code);
   } else {
     status = set_up_codec(encoder, options, report);
   }
@@ -253,7 +255,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
       code = avio_open(&encoder->format->pb, url, AVIO_FLAG_WRITE);
     }
     if (code < 0) {
-      status = fail(report, "the movie does not open", code);
+      status = fail_encoder(report, "the movie does not open", code);
     }
   }
   if (status == SB_OK) {
@@ -271,7 +273,7 @@ SbStatus sb_movie_encoder_open(SbMovieEncoder **out, const char *path,
 static SbStatus push(SbMovieEncoder *encoder, const AVFrame *frame, SbReport *report) {
   int code = avcodec_send_frame(encoder->codec, frame);
   if (code < 0) {
-    return fail(report, "encoding", code);
+    return fail_encoder(report, "encoding", code);
   }
   while ((code = avcodec_receive_packet(encoder->codec, encoder->packet)) >= 0) {
     encoder->packet->stream_index = encoder->stream->index;
@@ -279,11 +281,11 @@ static SbStatus push(SbMovieEncoder *encoder, const AVFrame *frame, SbReport *re
     av_packet_rescale_ts(encoder->packet, encoder->codec->time_base, encoder->stream->time_base);
     code = av_interleaved_write_frame(encoder->format, encoder->packet);
     if (code < 0) {
-      return fail(report, "writing the movie", code);
+      return fail_encoder(report, "writing the movie", code);
     }
   }
   if (code != AVERROR(EAGAIN) && code != AVERROR_EOF) {
-    return fail(report, "encoding", code);
+    return fail_encoder(report, "encoding", code);
   }
   return check_output(encoder, report);
 }
@@ -293,7 +295,7 @@ SbStatus sb_movie_encoder_add(SbMovieEncoder *encoder, const uint8_t *pixels, si
   int64_t begin = g_get_monotonic_time();
   int code = av_frame_make_writable(encoder->frame);
   if (code < 0) {
-    return fail(report, "no memory for a picture", code);
+    return fail_encoder(report, "no memory for a picture", code);
   }
   encoder->how->convert(encoder, pixels, stride);
   encoder->frame->pts = encoder->next++;
@@ -315,10 +317,11 @@ SbStatus sb_movie_encoder_finish(SbMovieEncoder *encoder, const char *comment, S
   }
   int code = av_write_trailer(encoder->format);
   encoder->header = false;
-  status = code < 0 ? fail(report, "the movie's index", code) : check_output(encoder, report);
+  status =
+      code < 0 ? fail_encoder(report, "the movie's index", code) : check_output(encoder, report);
   code = avio_closep(&encoder->format->pb);
   if (status == SB_OK && code < 0) {
-    status = fail(report, "closing the movie", code);
+    status = fail_encoder(report, "closing the movie", code);
   }
   return status;
 }

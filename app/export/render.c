@@ -241,10 +241,10 @@ typedef struct {
   const SbTheme *theme;
   const SbChartData *data;
   unsigned flags;
-} Page;
+} RenderPage;
 
-static void draw_page(cairo_t *cr, double width, double height, void *user) {
-  const Page *page = user;
+static void draw_render_page(cairo_t *cr, double width, double height, void *user) {
+  const RenderPage *page = user;
   sb_render_draw(cr, (SbRect){0, 0, width, height}, page->theme, page->data, page->flags,
                  page->view, page->options->section, page->options->section_data);
 }
@@ -294,8 +294,8 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
   sb_render_compared_place(&data);
 
   g_autoptr(GString) comment = comment_of(&data.run, summary, options);
-  Page page = {view, options, sb_theme(options->dark), &data,
-               view->whole && !options->at ? SB_CHART_WHOLE : 0};
+  RenderPage page = {view, options, sb_theme(options->dark), &data,
+                     view->whole && !options->at ? SB_CHART_WHOLE : 0};
   SbStill still = {.width = options->width > 0 ? options->width : view->width,
                    .height = options->height > 0 ? options->height : view->height,
                    .scale = options->scale,
@@ -304,7 +304,7 @@ bool sb_render_still(const SbRun *run, const SbRenderOptions *options, const cha
                    .hash = options->hash,
                    .comment = comment->str,
                    .ending = options->ending,
-                   .draw = draw_page,
+                   .draw = draw_render_page,
                    .user = &page};
   bool good = sb_still_write(&still, path, error);
   sb_render_compared_end(&compared);

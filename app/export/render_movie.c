@@ -5,7 +5,8 @@
 
 #include <string.h>
 
-static SbStatus draw(void *data, size_t picture, uint8_t *pixels, size_t stride, SbReport *report) {
+static SbStatus draw_movie(void *data, size_t picture, uint8_t *pixels, size_t stride,
+                           SbReport *report) {
   SbMoviePictures *film = data;
   int width;
   int height;
@@ -38,7 +39,7 @@ bool sb_render_movie(const SbRun *run, const SbRenderOptions *options, const SbR
   sb_movie_pictures_rate(film, &how.fps_num, &how.fps_den);
   SbReport report = {0};
   SbMovieResult own = {0};
-  SbStatus status = sb_movie_write(path, &how, draw, film, &movie->hooks, &own, &report);
+  SbStatus status = sb_movie_write(path, &how, draw_movie, film, &movie->hooks, &own, &report);
   if (result != NULL) {
     *result = own;
   }

@@ -85,7 +85,7 @@ typedef struct {
   size_t index;
 } Picture;
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
+static void draw_sequence(cairo_t *cr, double width, double height, void *user) {
   const Picture *picture = user;
   sb_movie_pictures_draw(picture->film, picture->index, cr);
 }
@@ -127,7 +127,7 @@ static bool write_all(SbOutputFolder *folder, SbMoviePictures *film, const SbRen
                    .scene = options->scene,
                    .hash = options->hash,
                    .comment = sb_movie_pictures_comment(film),
-                   .draw = draw,
+                   .draw = draw_sequence,
                    .user = &picture};
   for (size_t i = 0; i < total; i++) {
     if (hooks->cancelled != NULL && hooks->cancelled(hooks->data)) {

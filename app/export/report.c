@@ -214,11 +214,11 @@ static void draw_rig(cairo_t *cr, SbRect rect, const SbTheme *theme, const void 
   sb_rig_figures_draw(cr, rect, theme, &((const Scene *)of)->data, SB_CHART_PANEL);
 }
 
-static void draw_life(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
+static void draw_report_life(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
   sb_life_draw(cr, rect, theme, &((const Scene *)of)->data);
 }
 
-static void draw_shelf(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
+static void draw_report_shelf(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
   const double scale = 0.75; // as a study's
   cairo_translate(cr, rect.x, rect.y);
   cairo_scale(cr, scale, scale);
@@ -264,11 +264,11 @@ static void draw_cycle(SbReportPages *pages, const Scene *scene) {
   }
   if (scene->summary->life.done > 0) {
     sb_report_heading(pages, "Life over its actuations", 560);
-    sb_report_picture(pages, 540, draw_life, scene);
+    sb_report_picture(pages, 540, draw_report_life, scene);
   }
   if (scene->summary->shelf.points > 0) {
     sb_report_heading(pages, "Loss on the shelf", 620);
-    sb_report_picture(pages, 600, draw_shelf, scene);
+    sb_report_picture(pages, 600, draw_report_shelf, scene);
   }
 }
 

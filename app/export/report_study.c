@@ -36,7 +36,7 @@ static bool is_drawn(const SbReportStudyParts *study) {
   return study->study->method != SB_METHOD_RELIABILITY;
 }
 
-static char *shown(int figure, double value) {
+static char *shown_value(int figure, double value) {
   return isfinite(value) ? sb_figure_format(figure, value, NAN) : g_strdup(DASH);
 }
 
@@ -77,7 +77,7 @@ static char *beyond_text(const SbLimitShare *share) {
   return g_strdup_printf("%zu of %zu%s", share->beyond, share->of, unknown);
 }
 
-static void draw_limits(SbReportPages *pages, SbReportStudyParts *study) {
+static void draw_study_limits(SbReportPages *pages, SbReportStudyParts *study) {
   static const SbTableColumn columns[] = {
       {.label = "Limit on", .width = 4},
       {.label = "Limit", .width = 1.6},
@@ -152,7 +152,7 @@ static void draw_statistics(SbReportPages *pages, SbReportStudyParts *study) {
 }
 
 // Which samples are outside the validity of their models.
-static void draw_warnings(SbReportPages *pages, const SbReportStudyParts *study) {
+static void draw_study_warnings(SbReportPages *pages, const SbReportStudyParts *study) {
   size_t count = 0;
   g_autofree SbCodeCount *codes = sb_study_warnings(&count, study->answers);
   g_autoptr(GString) text = g_string_new("Warnings of validity: ");
@@ -307,7 +307,7 @@ static void make_curves(SbReportStudyParts *study) {
   study->curves = out;
 }
 
-static void draw_study(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
+static void draw_study_page(cairo_t *cr, SbRect rect, const SbTheme *theme, const void *of) {
   sb_study_draw(cr, rect, theme, of);
 }
 
@@ -349,7 +349,7 @@ static void draw_samples(SbReportPages *pages, const SbReportStudyParts *study) 
                                      sb_cell_own(point_text(study, i))};
     for (size_t k = 0; k < figures; k++) {
       cell[2 + k] = sb_cell_own(
-          shown(sb_report_study_figure(study, k), answers->value[i * answers->figures + k]));
+          shown_value(sb_report_study_figure(study, k), answers->value[i * answers->figures + k]));
     }
     sb_table_add(table, cell);
     sb_table_mark(table, answers->status[i] == SB_OK ? SB_TABLE_PLAIN : SB_TABLE_DOUBT);
@@ -412,12 +412,12 @@ static void draw_pages(SbReportPages *pages, const void *of) {
       sb_report_notice(pages, typical, false);
     }
   }
-  draw_limits(pages, study);
+  draw_study_limits(pages, study);
   draw_leakage(pages, study);
   if (is_drawn(study)) {
     draw_statistics(pages, study);
   }
-  draw_warnings(pages, study);
+  draw_study_warnings(pages, study);
   draw_varied(pages, study);
   if (is_drawn(study) && file->method != SB_METHOD_GRID) {
     sb_report_study_histograms(pages, study);
@@ -425,7 +425,8 @@ static void draw_pages(SbReportPages *pages, const void *of) {
   sb_report_study_tornados(pages, study);
   if (study->curves != NULL) {
     sb_report_heading(pages, "Over the grid", 420);
-    sb_report_picture(pages, study->curves->panel_count > 1 ? 620 : 400, draw_study, study->curves);
+    sb_report_picture(pages, study->curves->panel_count > 1 ? 620 : 400, draw_study_page,
+                      study->curves);
   }
   draw_samples(pages, study);
   draw_failures(pages, study);

@@ -251,7 +251,7 @@ static void put_life(SbJson *json, const SbRun *run) {
 }
 
 // Whether a block that holds the figure is in the document.
-static bool is_there(const SbRun *run, int figure) {
+static bool result_is_there(const SbRun *run, int figure) {
   const SbFigureGroup group = sb_figure(figure)->group;
   return group == SB_GROUP_LIFE  ? sb_run_summary(run)->life.done > 0
          : group == SB_GROUP_RIG ? !sb_device(sb_run_model(run))->stem
@@ -263,7 +263,7 @@ static void put_errors(SbJson *json, const SbRun *run) {
   const SbSummary *summary = sb_run_summary(run);
   sb_json_object(json, "error_estimates");
   for (int i = 0; i < SB_FIGURE_COUNT; i++) {
-    if (is_there(run, i)) {
+    if (result_is_there(run, i)) {
       sb_json_number(json, sb_figure(i)->path, sb_figure_error_reported(summary, i));
     }
   }
@@ -278,7 +278,7 @@ static bool is_film_parameter(const SbFigure *figure) {
 }
 
 // Why what is null above is so, by path; of blocks that are there.
-static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *info) {
+static void put_results_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
   sb_json_object(json, "reasons");
   if (summary->outcome == SB_OUTCOME_UNKNOWN) {
@@ -289,11 +289,11 @@ static void put_reasons(SbJson *json, const SbRun *run, const SbResultsInfo *inf
     const char *reason = sb_figure_reason(summary, i);
     const char *path = sb_figure(i)->path;
     const char *error_reason = sb_figure_error_reason(summary, i);
-    if (error_reason != NULL && is_there(run, i)) {
+    if (error_reason != NULL && result_is_there(run, i)) {
       g_autofree char *error_path = g_strconcat("error_estimates.", path, NULL);
       sb_json_string(json, error_path, error_reason);
     }
-    if (reason == NULL || !is_there(run, i)) {
+    if (reason == NULL || !result_is_there(run, i)) {
       continue;
     }
     sb_json_string(json, path, reason);
@@ -441,7 +441,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   put_shelf(&json, run);
   put_errors(&json, run);
   sb_json_warnings(&json, &summary->warnings);
-  put_reasons(&json, run, info);
+  put_results_reasons(&json, run, info);
   if (info->study_count > 0) {
     sb_json_array(&json, "studies");
     for (size_t i = 0; i < info->study_count; i++) {

@@ -216,7 +216,7 @@ static void put_drag(SbJson *json, const SbFit *fit, bool limit) {
   sb_json_number(json, "drag_limit", limit && found ? fit->ring.drag_limit : NAN);
 }
 
-static void put_reasons(SbJson *json, const SbResultRow *row) {
+static void put_solver_reasons(SbJson *json, const SbResultRow *row) {
   for (; row->key != NULL; row++) {
     sb_json_string(json, row->key, "the solver found no such state");
   }
@@ -229,10 +229,10 @@ static void put_fit_reasons(SbJson *json, const SbFit *fit, bool found, bool dra
   }
   sb_json_object(json, "reasons");
   if (!found) {
-    put_reasons(json, sb_fit_contact_rows);
+    put_solver_reasons(json, sb_fit_contact_rows);
   }
   if (dragged && !fit->solver.converged) {
-    put_reasons(json, sb_fit_drag_rows);
+    put_solver_reasons(json, sb_fit_drag_rows);
     sb_json_string(json, "state", "the solver found no such state");
     sb_json_string(json, "drag_limit", "the solver found no such state");
   } else if (dragged && !limit) {

@@ -66,7 +66,7 @@ static void png_write_bytes(png_structp png, png_bytep data, png_size_t length) 
 
 static void png_flush_bytes(png_structp png) {}
 
-static int add_text(png_text *text, int count, const char *key, const char *value) {
+static int add_still_text(png_text *text, int count, const char *key, const char *value) {
   if (value && value[0]) {
     // The library wants pointers to char but only reads them.
     text[count] = (png_text){.compression = strlen(value) > 400 ? PNG_ITXT_COMPRESSION_zTXt
@@ -108,11 +108,11 @@ static bool encode_png(FILE *stream, cairo_surface_t *surface, const SbStill *st
   png_set_pHYs(png, info, per_metre, per_metre, PNG_RESOLUTION_METER);
   png_text text[5];
   memset(text, 0, sizeof text);
-  int count = add_text(text, 0, "Title", still->title);
-  count = add_text(text, count, "Software", software);
-  count = add_text(text, count, "Comment", still->comment);
-  count = add_text(text, count, HASH_KEY, still->hash);
-  count = add_text(text, count, SB_PICTURE_SCENE_KEY, still->scene);
+  int count = add_still_text(text, 0, "Title", still->title);
+  count = add_still_text(text, count, "Software", software);
+  count = add_still_text(text, count, "Comment", still->comment);
+  count = add_still_text(text, count, HASH_KEY, still->hash);
+  count = add_still_text(text, count, SB_PICTURE_SCENE_KEY, still->scene);
   png_set_text(png, info, text, count);
   png_write_info(png, info);
   for (int y = 0; y < height; y++) {
@@ -160,7 +160,8 @@ static bool put_png(FILE *stream, const SbStill *still, GError **error) {
 // ---------------------------------------------------------------------------------------------------
 // SVG and PDF
 
-static cairo_status_t append_bytes(void *closure, const unsigned char *data, unsigned length) {
+static cairo_status_t append_still_bytes(void *closure, const unsigned char *data,
+                                         unsigned length) {
   g_byte_array_append(closure, data, length);
   return CAIRO_STATUS_SUCCESS;
 }
@@ -185,7 +186,7 @@ static char *svg_metadata(const SbStill *still) {
 static bool put_svg(FILE *stream, const SbStill *still, GError **error) {
   GByteArray *bytes = g_byte_array_new();
   cairo_surface_t *surface =
-      cairo_svg_surface_create_for_stream(append_bytes, bytes, still->width, still->height);
+      cairo_svg_surface_create_for_stream(append_still_bytes, bytes, still->width, still->height);
   cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
   bool good = draw_on(surface, still, 1, error);
   cairo_surface_finish(surface);

@@ -99,7 +99,7 @@ typedef struct {
   const SbStudyPage *page;
 } Drawing;
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
+static void draw_studies(cairo_t *cr, double width, double height, void *user) {
   const Drawing *drawing = user;
   sb_study_page_draw(cr, (SbRect){0, 0, width, height}, drawing->study, drawing->page);
 }
@@ -131,7 +131,7 @@ bool sb_study_still(const SbStudy *study, const SbStudyPage *page, const char *p
                    .hash = page->hash,
                    .comment = comment->str,
                    .ending = page->ending,
-                   .draw = draw,
+                   .draw = draw_studies,
                    .user = &drawing};
   if (!(still.width > 0)) {
     page_size(&still.width, &still.height, study);

@@ -128,8 +128,8 @@ static void put_interval(SbJson *json, const char *key, double low, double high)
   sb_json_numbers(json, key, ends, 2);
 }
 
-static SbStatus put_figures(SbJson *json, const SbStudyFile *study, const SbAnswers *answers,
-                            SbReport *report) {
+static SbStatus put_study_figures(SbJson *json, const SbStudyFile *study, const SbAnswers *answers,
+                                  SbReport *report) {
   static const char *const shares[SB_QUANTILES] = {"0.001", "0.05", "0.5", "0.95", "0.999"};
   SbStatus status = SB_OK;
   sb_json_object(json, "figures");
@@ -427,15 +427,15 @@ static void put_failures(SbJson *json, const SbAnswers *answers) {
   sb_json_array_end(json);
 }
 
-static void put_path(SbJson *json, const char *key, const char *path) {
+static void put_study_path(SbJson *json, const char *key, const char *path) {
   g_autofree char *full = path != NULL ? g_canonicalize_filename(path, NULL) : g_strdup("-");
   sb_json_string(json, key, full);
 }
 
 void sb_json_study_files(SbJson *json, const SbStudyFile *study) {
   sb_json_string(json, "study", study->title);
-  put_path(json, "file", study->path);
-  put_path(json, "scene", study->scene != NULL ? sb_document_path(study->scene) : NULL);
+  put_study_path(json, "file", study->path);
+  put_study_path(json, "scene", study->scene != NULL ? sb_document_path(study->scene) : NULL);
 }
 
 char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const SbAnswers *answers,
@@ -453,7 +453,8 @@ char *sb_study_json(const SbStudyFile *study, const SbStudyDrawn *drawn, const S
   g_autofree char *full = store != NULL ? g_canonicalize_filename(store, NULL) : NULL;
   sb_json_string(&json, "store", full);
   // Of samples about failures no statistics of figures.
-  SbStatus status = drawn->reliability == NULL ? put_figures(&json, study, answers, report) : SB_OK;
+  SbStatus status =
+      drawn->reliability == NULL ? put_study_figures(&json, study, answers, report) : SB_OK;
   if (status == SB_OK && study->limits.count > 0) {
     status = put_limits(&json, study, drawn, answers, report);
   }

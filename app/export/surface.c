@@ -243,7 +243,7 @@ static void put_cutoffs(SbJson *json, const SbScanFigures *figures) {
   sb_json_array_end(json);
 }
 
-static void put_reasons(SbJson *json, const SbSurface *surface, const char *scene) {
+static void put_surface_reasons(SbJson *json, const SbSurface *surface, const char *scene) {
   const SbScanFigures *figures = surface->figures;
   const bool is_surface = surface->scan->heights.rows > 1;
   sb_json_object(json, "reasons");
@@ -311,7 +311,7 @@ char *sb_surface_json(const SbSurface *surface) {
   }
   sb_json_array_end(&json);
   sb_json_warnings(&json, &figures->warnings);
-  put_reasons(&json, surface, reason);
+  put_surface_reasons(&json, surface, reason);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

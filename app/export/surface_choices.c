@@ -18,7 +18,7 @@ void sb_surface_choices_clear(SbSurfaceChoices *choices) {
   *choices = (SbSurfaceChoices){0};
 }
 
-static bool G_GNUC_PRINTF(2, 3) fail(GError **error, const char *format, ...) {
+static bool G_GNUC_PRINTF(2, 3) fail_choice(GError **error, const char *format, ...) {
   va_list arguments;
   va_start(arguments, format);
   g_autofree char *text = g_strdup_vprintf(format, arguments);
@@ -36,7 +36,7 @@ static bool choose_form(SbForm *form, const char *text, GError **error) {
     }
     g_string_append_printf(names, "%s%s", i > 0 ? ", " : "", sb_form_name(i));
   }
-  return fail(error, "there is no \"%s\" (allowed %s)", text, names->str);
+  return fail_choice(error, "there is no \"%s\" (allowed %s)", text, names->str);
 }
 
 bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *text,
@@ -63,8 +63,8 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
       return false;
     }
     if (!(value > 0 && isfinite(value))) {
-      return numbers[i].unit ? fail(error, "\"%s\" is not a unit of length", text)
-                             : fail(error, "\"%s\": a value above 0 is needed", text);
+      return numbers[i].unit ? fail_choice(error, "\"%s\" is not a unit of length", text)
+                             : fail_choice(error, "\"%s\": a value above 0 is needed", text);
     }
     *numbers[i].value = value;
     return true;
@@ -79,12 +79,12 @@ bool sb_surface_choose(SbSurfaceChoices *choices, const char *name, const char *
     choices->heights.fill = missing ? second : choices->heights.fill;
     choices->scan.decimal = missing ? choices->scan.decimal : ".,"[second];
     return second || strcmp(text, words[0]) == 0 ||
-           fail(error, "there is no \"%s\" (allowed %s, %s)", text, words[0], words[1]);
+           fail_choice(error, "there is no \"%s\" (allowed %s, %s)", text, words[0], words[1]);
   }
   if (strcmp(name, "channel") == 0) {
     g_free(choices->channel);
     choices->scan.channel = choices->channel = g_strdup(text);
     return true;
   }
-  return fail(error, "\"%s\" is not a setting of a scan", name);
+  return fail_choice(error, "\"%s\" is not a setting of a scan", name);
 }

@@ -11,23 +11,23 @@
 #include <math.h>
 #include <string.h>
 
-enum { BINS = 60 };
+enum { SURFACE_BINS = 60 };
 
 static const double reach = 4; // of the histogram, in standard deviations
 
 // Shares of the heights per length, beside the Gaussian's of the same deviation.
 static SbStudy *heights_study(const SbSurface *surface) {
   const SbHeights *h = &surface->scan->heights;
-  const double sq = surface->figures->figures.sq, width = 2 * reach * sq / BINS;
+  const double sq = surface->figures->figures.sq, width = 2 * reach * sq / SURFACE_BINS;
   SbStudy *study = g_new0(SbStudy, 1);
-  double count = 0, sum = 0, bin[BINS] = {0};
+  double count = 0, sum = 0, bin[SURFACE_BINS] = {0};
   for (size_t i = 0; i < h->rows * h->columns; i++) {
     sum += isnan(h->z[i]) ? 0 : h->z[i];
     count += !isnan(h->z[i]);
   }
   for (size_t i = 0; i < h->rows * h->columns; i++) {
-    const double at = (h->z[i] - sum / count) / width + BINS / 2.0;
-    if (at >= 0 && at < BINS) {
+    const double at = (h->z[i] - sum / count) / width + SURFACE_BINS / 2.0;
+    if (at >= 0 && at < SURFACE_BINS) {
       bin[(int)at]++;
     }
   }
@@ -36,8 +36,8 @@ static SbStudy *heights_study(const SbSurface *surface) {
       study, &(SbStudyAxis){"fraction of heights", "m-1", "1/µm", false}, "no heights");
   SbStudySeries *heights = sb_study_series(panel, SB_STUDY_CURVE, "heights");
   SbStudySeries *gauss = sb_study_series(panel, SB_STUDY_REFERENCE, "Gaussian of Sq");
-  for (int k = 0; k < BINS; k++) {
-    const double z = (k + 0.5 - BINS / 2.0) * width;
+  for (int k = 0; k < SURFACE_BINS; k++) {
+    const double z = (k + 0.5 - SURFACE_BINS / 2.0) * width;
     sb_study_point(heights, z, bin[k] / (count * width));
     sb_study_point(gauss, z, exp(-z * z / (2 * sq * sq)) / (sq * sqrt(2 * M_PI)));
   }
@@ -52,7 +52,7 @@ static void add_mark(SbStudy *study, double x, const char *text) {
   }
 }
 
-static void add_table(SbStudy *study, const SbScanFigures *figures) {
+static void add_surface_table(SbStudy *study, const SbScanFigures *figures) {
   static const char *const names[] = {"by neighbours", "by moments", "for a scene"};
   const SbAsperityFigures *columns[] = {&figures->figures.neighbours, &figures->figures.moments,
                                         &figures->scene};
@@ -95,7 +95,7 @@ static SbStudy *spectrum_study(const SbSurface *surface) {
   g_autofree char *hurst = g_strdup_printf("cut-off, H = %.2f", spectrum->hurst);
   add_mark(study, spectrum->roll_off, "roll-off");
   add_mark(study, spectrum->cut_off, hurst);
-  add_table(study, surface->figures);
+  add_surface_table(study, surface->figures);
   return study;
 }
 
@@ -136,7 +136,7 @@ void sb_surface_draw(cairo_t *cr, double width, double height, const SbSurface *
   cairo_restore(cr);
 }
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
+static void draw_surface(cairo_t *cr, double width, double height, void *user) {
   sb_surface_draw(cr, width, height, user, false);
 }
 
@@ -149,7 +149,7 @@ bool sb_surface_still(const SbSurface *surface, const char *path, GError **error
                          .height = 900,
                          .title = "Measured surface",
                          .comment = comment,
-                         .draw = draw,
+                         .draw = draw_surface,
                          .user = (void *)(gintptr)surface};
   return sb_still_write(&still, path, error);
 }

@@ -21,7 +21,7 @@ static char *row_text(const SbThesisRow *row, double value) {
 
 // As row_text(), of a part of the row's values: to the place of their fifth digit, so that parts
 // add up as they are printed and none shows digits that a difference of five digits does not have.
-static char *share_text(const SbThesisRow *row, double value) {
+static char *thesis_share_text(const SbThesisRow *row, double value) {
   // NaN are ignored.
   const double most = fmax(fmax(fabs(row->printed), fabs(row->thesis)), fabs(row->consistent));
   const double place = value != 0 && most > 0 ? floor(log10(most)) - floor(log10(fabs(value))) : 0;
@@ -35,8 +35,8 @@ static char *part_text(const SbThesisRow *row, const SbThesisPart *part) {
   }
   const double scale = isfinite(row->printed) ? fabs(row->printed) : fabs(row->thesis);
   const double explains = fabs(part->explains) <= 1e-9 * scale ? 0 : part->explains;
-  g_autofree char *text = share_text(row, explains);
-  g_autofree char *bound = isfinite(part->bound) ? share_text(row, part->bound) : NULL;
+  g_autofree char *text = thesis_share_text(row, explains);
+  g_autofree char *bound = isfinite(part->bound) ? thesis_share_text(row, part->bound) : NULL;
   return g_strconcat(explains > 0 ? "+" : "", text, bound != NULL ? " of at most " : "",
                      bound != NULL ? bound : "", NULL);
 }
@@ -46,13 +46,13 @@ static char *rest_text(const SbThesisRow *row) {
   if (!isfinite(row->remains)) {
     return NULL;
   }
-  g_autofree char *left = share_text(row, -row->remains);
+  g_autofree char *left = thesis_share_text(row, -row->remains);
   const bool rounding = fabs(row->remains) <= row->rounding + 1e-12 * fabs(row->printed);
   return g_strdup_printf("remains %s", rounding ? "rounding" : left);
 }
 
 // "text (shown by COMMAND): +3 nm".
-static void put_parts(GString *out, const SbThesisRow *row, const GArray *parts) {
+static void put_thesis_parts(GString *out, const SbThesisRow *row, const GArray *parts) {
   for (guint i = 0; i < parts->len; i++) {
     const SbThesisPart *part = &g_array_index(parts, SbThesisPart, i);
     g_autofree char *by = part_text(row, part);
@@ -68,7 +68,7 @@ static char *reason_text(const SbThesisRow *row) {
     return NULL;
   }
   GString *out = g_string_new(NULL);
-  put_parts(out, row, row->reasons);
+  put_thesis_parts(out, row, row->reasons);
   g_autofree char *rest = rest_text(row);
   if (rest != NULL) {
     g_string_append_printf(out, "; %s", rest);
@@ -82,12 +82,12 @@ static char *model_reason(const SbThesisRow *row) {
     return NULL;
   }
   GString *out = g_string_new(NULL);
-  put_parts(out, row, row->models);
+  put_thesis_parts(out, row, row->models);
   return g_string_free(out, FALSE);
 }
 
 // Place of a part in the list, from 1; 0: it is not there.
-static guint place_of(const GPtrArray *reasons, const SbThesisPart *part) {
+static guint thesis_place_of(const GPtrArray *reasons, const SbThesisPart *part) {
   g_autofree char *text = g_strdup_printf("%s (%s)", part->text, part->shown_by);
   for (guint i = 0; i < reasons->len; i++) {
     if (strcmp(reasons->pdata[i], text) == 0) {
@@ -107,7 +107,7 @@ static GPtrArray *all_reasons(const SbThesisItem *item) {
       const GArray *parts = models != 0 ? row->models : row->reasons;
       for (guint k = 0; k < parts->len; k++) {
         const SbThesisPart *part = &g_array_index(parts, SbThesisPart, k);
-        if (place_of(out, part) == 0) {
+        if (thesis_place_of(out, part) == 0) {
           g_ptr_array_add(out, g_strdup_printf("%s (%s)", part->text, part->shown_by));
         }
       }
@@ -124,7 +124,7 @@ static char *standing_text(const SbThesisRow *row, const GPtrArray *reasons, boo
   for (guint i = 0; i < parts->len; i++) {
     const SbThesisPart *part = &g_array_index(parts, SbThesisPart, i);
     g_autofree char *by = part_text(row, part);
-    g_string_append_printf(out, "%s%u: %s", i > 0 ? ", " : "", place_of(reasons, part), by);
+    g_string_append_printf(out, "%s%u: %s", i > 0 ? ", " : "", thesis_place_of(reasons, part), by);
   }
   g_autofree char *rest = parts->len > 0 && !models ? rest_text(row) : NULL;
   if (rest != NULL) {
@@ -230,7 +230,7 @@ static const SbThesisRow *find_row(SbThesisItem *const *items, size_t count, con
 
 // "printed", "thesis", "consistent" or "ratio", printed over the thesis' model. Owned by the
 // caller.
-static char *value_text(const SbThesisRow *row, const char *what) {
+static char *thesis_value_text(const SbThesisRow *row, const char *what) {
   char digits[SB_NUMBER_SIZE];
   if (strcmp(what, "ratio") == 0) {
     return g_strdup(sb_number_round(digits, row->printed / row->thesis, 3));
@@ -254,7 +254,7 @@ char *sb_thesis_introduction(const char *text, SbThesisItem *const *items, size_
     const bool whole = g_strv_length(part) == 3;
     const SbThesisRow *row =
         whole ? find_row(items, count, g_strstrip(part[0]), g_strstrip(part[1])) : NULL;
-    g_autofree char *value = row != NULL ? value_text(row, g_strstrip(part[2])) : NULL;
+    g_autofree char *value = row != NULL ? thesis_value_text(row, g_strstrip(part[2])) : NULL;
     g_string_append(out, value != NULL ? value : "?");
     c = close;
   }
@@ -480,7 +480,7 @@ void sb_markdown_thesis(FILE *stream, const SbThesisItem *item) {
 
 // ---- The chart ----
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
+static void draw_thesis(cairo_t *cr, double width, double height, void *user) {
   const SbThesisItem *item = user;
   const SbTheme *theme = sb_theme(false);
   const SbColor ground = theme->role[SB_ROLE_BACKGROUND];
@@ -493,7 +493,7 @@ bool sb_thesis_still(FILE *stream, const SbThesisItem *item, const char *ending,
   SbStill still = {.width = item->chart->panel_count > 1 ? 1280 : 800,
                    .height = item->chart->panel_count > 2 ? 800 : 440,
                    .title = item->title,
-                   .draw = draw,
+                   .draw = draw_thesis,
                    .user = (void *)item};
   return sb_still_put(stream, &still, ending, error);
 }

@@ -101,7 +101,7 @@ static bool is_cancelled(void *data) {
          job->handle->ticket;
 }
 
-static void on_progress(void *data, double fraction, size_t frames) {
+static void on_runner_progress(void *data, double fraction, size_t frames) {
   const double interval = 0.015;
   Job *job = data;
   unsigned permille = fraction > 0 ? (unsigned)(1000 * fraction) : 0;
@@ -144,8 +144,10 @@ static void compute(SbRunner *runner, const SbRunRequest *request, unsigned tick
   if (handle->status == SB_OK) {
     show(runner, handle);
     Job job = {runner, handle, 0};
-    SbRunHooks hooks = {
-        .progress = on_progress, .cancelled = is_cancelled, .data = &job, .alone = request->alone};
+    SbRunHooks hooks = {.progress = on_runner_progress,
+                        .cancelled = is_cancelled,
+                        .data = &job,
+                        .alone = request->alone};
     if (request->keep) {
       sb_run_keep_rings(handle->run);
     }

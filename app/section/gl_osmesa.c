@@ -32,7 +32,7 @@ typedef struct {
   unsigned char dummy[4 * DUMMY_SIZE * DUMMY_SIZE];
 } OsMesa;
 
-static bool find(void *library, const char *name, void *target) {
+static bool find_osmesa(void *library, const char *name, void *target) {
   void *address = dlsym(library, name);
   memcpy(target, &address, sizeof address);
   return address != NULL;
@@ -77,10 +77,10 @@ static SbStatus osmesa_open(void **out, SbReport *report) {
   if (state->library == NULL) {
     return sb_fail(report, SB_ERROR_IO, "libOSMesa cannot be loaded");
   }
-  if (!find(state->library, "OSMesaCreateContextAttribs", &state->create) ||
-      !find(state->library, "OSMesaDestroyContext", &state->destroy) ||
-      !find(state->library, "OSMesaMakeCurrent", &state->make_current) ||
-      !find(state->library, "OSMesaGetProcAddress", &state->get_proc_address)) {
+  if (!find_osmesa(state->library, "OSMesaCreateContextAttribs", &state->create) ||
+      !find_osmesa(state->library, "OSMesaDestroyContext", &state->destroy) ||
+      !find_osmesa(state->library, "OSMesaMakeCurrent", &state->make_current) ||
+      !find_osmesa(state->library, "OSMesaGetProcAddress", &state->get_proc_address)) {
     return sb_fail(report, SB_ERROR_IO, "libOSMesa is too old");
   }
   const int attributes[] = {OSMESA_FORMAT_KEY,

@@ -79,7 +79,7 @@ static double signed_area(const SbPoint *p, size_t n) {
   return twice / 2.0;
 }
 
-static bool inside(SbPoint p, SbPoint a, SbPoint b, SbPoint c) {
+static bool inside_mesh(SbPoint p, SbPoint a, SbPoint b, SbPoint c) {
   return cross(a, b, p) >= 0.0 && cross(b, c, p) >= 0.0 && cross(c, a, p) >= 0.0;
 }
 
@@ -90,7 +90,7 @@ static bool is_ear(const SbPoint *p, const int *next, const int *previous, int b
     return false;
   }
   for (int i = next[c]; i != a; i = next[i]) {
-    if (cross(p[previous[i]], p[i], p[next[i]]) <= 0.0 && inside(p[i], p[a], p[b], p[c])) {
+    if (cross(p[previous[i]], p[i], p[next[i]]) <= 0.0 && inside_mesh(p[i], p[a], p[b], p[c])) {
       return false;
     }
   }

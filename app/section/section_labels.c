@@ -198,7 +198,7 @@ static void draw_seal_names(SbSection *section) {
 }
 
 // "Stem" and its speed.
-static void draw_motion(SbSection *section) {
+static void draw_section_motion(SbSection *section) {
   const SbPalette *palette = section->palette;
   const SbFrame *frame = section->instant->frame;
   double axis = sb_section_axis(section);
@@ -428,12 +428,12 @@ void sb_section_draw_strip_labels(SbSection *section) {
     draw_seal_names(section);
   }
   if (labels && whole && section->valve.gasket) {
-    draw_motion(section);
+    draw_section_motion(section);
   } else if (labels && whole) {
     draw_regions(section);
     draw_land_edge(section);
     draw_dose_path(section);
-    draw_motion(section);
+    draw_section_motion(section);
   } else if (labels) {
     draw_zoom(section);
   }

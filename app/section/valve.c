@@ -14,7 +14,7 @@
 
 // Proportions that are not worth a parameter, relative to the radial space (1.36 mm in the thesis
 // valve): flank of the dose chamber, chamfers.
-static const double CHAMFER = 0.08;
+static const double VALVE_CHAMFER = 0.08;
 static const double FLANK_SLOPE = 0.33;
 
 // The lead-in beside the land is the one that solved rings are pressed against (chamfer and edge of
@@ -74,7 +74,7 @@ static void make_vent(SbValveOutline *valve, const SbValveShape *shape) {
 }
 
 // The housing's surfaces, and its solid cut in two by the vent.
-static void finish_housing(SbValveOutline *valve) {
+static void finish_valve_housing(SbValveOutline *valve) {
   SbValveSolid *whole = &valve->solid[0];
   g_autofree SbOutline *outline = g_new(SbOutline, 1);
   outline->count = whole->count;
@@ -95,7 +95,7 @@ static void make_housing(SbValveOutline *valve, const SbModel *model, double top
   double g = sb_model_value(model, SB_P_GLAND_RADIAL_SPACE);
   double mouth = at_least(valve, shape->entry_diameter / 2, valve->bore + 0.1 * g);
   mouth = at_most(valve, mouth, 0.8 * top + 0.2 * valve->bore);
-  double chamfer = CHAMFER * g;
+  double chamfer = VALVE_CHAMFER * g;
   double rise = mouth - valve->bore;
   double slope = tan(LEAD_ANGLE);
   double lead = rise / slope + EDGE_LENGTH / 2;
@@ -320,7 +320,7 @@ void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double i
   memset(valve, 0, sizeof *valve);
   if (!sb_device(model)->gland && sb_device(model)->stem) {
     sb_valve_gasket_make(valve, model, vent);
-    finish_housing(valve);
+    finish_valve_housing(valve);
     return;
   }
   const SbValveShape *shape = sb_model_shape(model);
@@ -359,7 +359,7 @@ void sb_valve_outline_make(SbValveOutline *valve, const SbModel *model, double i
   if (vent) {
     make_vent(valve, shape);
   }
-  finish_housing(valve);
+  finish_valve_housing(valve);
   // Where a profile gives the stem it replaces the one made of parameters, of which it keeps what
   // it does not say.
   size_t first = valve->solid_count;

@@ -329,7 +329,7 @@ static bool about_place(SbDesignJob *job, int place, SbDesignPart part, SbReport
   return good;
 }
 
-static void work(void *owner) {
+static void work_design_job(void *owner) {
   SbDesignJob *job = owner;
   SbReport report = {0};
   g_autoptr(GError) error = NULL;
@@ -388,7 +388,7 @@ SbDesignJob *sb_design_job_start(SbStudyFile *study, const SbDesignAsk *ask, SbS
   map->status = g_malloc(points);
   memset(map->status, SB_ANSWER_MISSING, points);
   job->sample = g_new(size_t, points);
-  sb_worker_start(&job->worker, "design", work, job, done, data);
+  sb_worker_start(&job->worker, "design", work_design_job, job, done, data);
   return job;
 }
 

@@ -32,7 +32,7 @@ const char *sb_effect_goal_name(int index) {
   return _(goals[index].name);
 }
 
-static void work(void *owner) {
+static void work_effect_job(void *owner) {
   SbEffectJob *job = owner;
   SbParamId id[SB_PARAM_COUNT];
   size_t count = 0;
@@ -81,7 +81,7 @@ static void work(void *owner) {
 SbEffectJob *sb_effect_job_start(const SbModel *model, void (*done)(void *data), void *data) {
   SbEffectJob *job = g_new0(SbEffectJob, 1);
   job->model = sb_own_model(model);
-  sb_worker_start(&job->worker, "effects", work, job, done, data);
+  sb_worker_start(&job->worker, "effects", work_effect_job, job, done, data);
   return job;
 }
 

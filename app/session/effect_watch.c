@@ -20,7 +20,7 @@ struct SbEffectWatch {
   guint later;           // source that will ask
 };
 
-static void on_done(void *data) {
+static void on_watch_done(void *data) {
   SbEffectWatch *watch = data;
   SbEffects *effects = g_new(SbEffects, 1);
   if (sb_effect_job_take(watch->job, effects)) {
@@ -48,7 +48,7 @@ static gboolean on_later(gpointer data) {
       g_strcmp0(hash, watch->hash) != 0) {
     g_free(watch->job_hash);
     watch->job_hash = g_steal_pointer(&hash);
-    watch->job = sb_effect_job_start(model, on_done, watch);
+    watch->job = sb_effect_job_start(model, on_watch_done, watch);
   }
   return G_SOURCE_REMOVE;
 }

@@ -11,7 +11,7 @@ struct SbMeasureJob {
   GPtrArray *issues;
 };
 
-static void work(void *owner) {
+static void work_measure_job(void *owner) {
   SbMeasureJob *job = owner;
   job->measured = sb_measured_load(job->data, job->speed, job->issues);
 }
@@ -22,7 +22,7 @@ SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void
   job->data = data;
   job->speed = speed;
   job->issues = sb_issues_new();
-  sb_worker_start(&job->worker, "measured", work, job, done, user);
+  sb_worker_start(&job->worker, "measured", work_measure_job, job, done, user);
   return job;
 }
 

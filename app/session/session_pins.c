@@ -48,7 +48,7 @@ static int free_slot(const SbSession *session) {
   return -1;
 }
 
-static void changed(SbSession *session) {
+static void pins_changed(SbSession *session) {
   sb_session_name_pins(session);
   sb_session_run_changed(session);
   sb_session_emit(session, SB_SIGNAL_PARAMS); // there is something to save
@@ -90,7 +90,7 @@ gboolean sb_session_pin(SbSession *session) {
   if (pin->slot < 0) { // the new one is what somebody wants to see
     sb_session_draw_pin(session, session->pins->len - 1, TRUE);
   } else {
-    changed(session);
+    pins_changed(session);
   }
   return TRUE;
 }
@@ -102,7 +102,7 @@ gboolean sb_session_pin_values(SbSession *session, const SbOverride *override, s
   Pin *pin = g_new0(Pin, 1); // its run is computed
   pin->slot = free_slot(session);
   g_ptr_array_add(session->pins, pin);
-  changed(session);
+  pins_changed(session);
   sb_session_poll_pins(session);
   return TRUE;
 }
@@ -114,13 +114,13 @@ void sb_session_unpin(SbSession *session, size_t index) {
   }
   sb_document_remove_pin(session->document, index);
   g_ptr_array_remove_index(session->pins, (guint)index);
-  changed(session);
+  pins_changed(session);
   sb_session_poll_pins(session);
 }
 
 void sb_session_rename_pin(SbSession *session, size_t index, const char *name) {
   sb_document_name_pin(session->document, index, name);
-  changed(session);
+  pins_changed(session);
 }
 
 void sb_session_draw_pin(SbSession *session, size_t index, gboolean on) {
@@ -138,7 +138,7 @@ void sb_session_draw_pin(SbSession *session, size_t index, gboolean on) {
   } else if (!on) {
     pin->slot = -1;
   }
-  changed(session);
+  pins_changed(session);
 }
 
 void sb_session_use_pin(SbSession *session, size_t index) {

@@ -87,7 +87,7 @@ bool sb_session_is_current(const SbSession *session) {
          sb_same_values(&session->asked, &present);
 }
 
-static void ask(SbSession *session) {
+static void ask_request(SbSession *session) {
   session->asked = sb_document_params(session->document);
   session->asked_drawings = sb_session_drawings(session);
 }
@@ -140,7 +140,7 @@ void sb_session_submit(SbSession *session, SbRunGrade grade) {
     grade = SB_GRADE_WHOLE;
   }
   sb_session_set_reference(&session->fresh, NULL);
-  ask(session);
+  ask_request(session);
   session->grade = grade;
   session->started = g_get_monotonic_time();
   sb_session_go(session, SB_REQUEST_COMPUTED);
@@ -196,7 +196,7 @@ void sb_session_keep_run(SbSession *session, SbDisplayedRun *run) {
 
 // Begins the run of the present values; FALSE: they make no model. Not inlined: callers have
 // parameters on their stacks as well.
-static G_NO_INLINE gboolean begin(SbSession *session) {
+static G_NO_INLINE gboolean begin_request(SbSession *session) {
   end_delay(session);
   if (session->model == NULL) {
     return FALSE;
@@ -213,13 +213,13 @@ static G_NO_INLINE gboolean begin(SbSession *session) {
   }
   sb_session_set_reference(&session->earlier, NULL);
   g_clear_pointer(&session->failure, g_free);
-  ask(session);
+  ask_request(session);
   sb_session_submit(session, first_grade(session));
   return TRUE;
 }
 
 static void start_now(SbSession *session) {
-  if (begin(session)) {
+  if (begin_request(session)) {
     sb_session_run_changed(session);
   }
 }
@@ -323,7 +323,7 @@ void sb_session_values_changed(SbSession *session) {
       // What was just opened is complete, so is a single edit, and a quick run ends before the
       // next. The run of a single edit begins before it is reported, which takes the window 40 ms.
       const bool grades = session->heavy && session->shown != NULL;
-      const bool begun = grades && session->lone && begin(session);
+      const bool begun = grades && session->lone && begin_request(session);
       const guint wait = grades && !session->lone ? DELAY_MS : 0;
       if (!begun) {
         sb_session_go(session, computes ? SB_REQUEST_OVERTAKEN : SB_REQUEST_DELAYED);

@@ -160,7 +160,7 @@ static void take_slopes(SbSession *session, int id, SbDisplayedRun *down) {
 }
 
 // Takes what a run beside the base has ended with (NULL: with nothing).
-static void take(SbSession *session, SbDisplayedRun *run) {
+static void take_slope(SbSession *session, SbDisplayedRun *run) {
   const int id = session->slope_id;
   if (id == SB_SLOPE_LEVEL) {
     session->base->level = sb_displayed_run_ref(run);
@@ -244,7 +244,7 @@ static void find_tangents(SbSession *session) {
       return;
     }
     session->slope_id = id;
-    take(session, NULL);
+    take_slope(session, NULL);
   }
 }
 
@@ -273,7 +273,7 @@ void sb_session_poll_slope(SbSession *session) {
   } else {
     sb_run_handle_unref(handle);
   }
-  take(session, run);
+  take_slope(session, run);
   sb_displayed_run_unref(run);
   sb_session_find_slopes(session);
 }

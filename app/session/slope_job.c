@@ -15,7 +15,7 @@ struct SbSlopeJob {
   SbGradient *gradient; // the thread's until it has ended; owned
 };
 
-static void work(void *owner) {
+static void work_slope_job(void *owner) {
   SbSlopeJob *job = owner;
   int figure[SB_FIGURE_COUNT];
   double value[SB_FIGURE_COUNT];
@@ -52,7 +52,7 @@ SbSlopeJob *sb_slope_job_new(const SbModel *model) {
 void sb_slope_job_start(SbSlopeJob *job, SbParamId id, void (*done)(void *data), void *data) {
   job->id = id;
   job->busy = true;
-  sb_worker_start(&job->worker, "slopes", work, job, done, data);
+  sb_worker_start(&job->worker, "slopes", work_slope_job, job, done, data);
 }
 
 bool sb_slope_job_is_busy(const SbSlopeJob *job) {

@@ -15,7 +15,7 @@ struct SbStudyJob {
   SbReport report;
 };
 
-static void work(void *owner) {
+static void work_study_job(void *owner) {
   SbStudyJob *job = owner;
   SbStudyHooks hooks = {sb_worker_set_progress, sb_worker_cancelled, &job->worker};
   job->status = sb_study_make(job->study, job->kind, job->model, &hooks, &job->report);
@@ -27,7 +27,7 @@ SbStudyJob *sb_study_job_start(SbStudyKind kind, const SbModel *model, void (*do
   job->kind = kind;
   job->model = sb_own_model(model);
   job->study = g_new(SbStudy, 1);
-  sb_worker_start(&job->worker, "study", work, job, done, data);
+  sb_worker_start(&job->worker, "study", work_study_job, job, done, data);
   return job;
 }
 

@@ -62,7 +62,7 @@ SbStatus sb_slopes(double *value, double *slope, SbEvaluator *evaluator, const S
 
 // ---- Tasks ----
 
-enum { JOBS_MAX = 256 };
+enum { SLOPES_JOBS_MAX = 256 };
 
 typedef struct {
   SbTask task;
@@ -91,7 +91,7 @@ static void note(Tasks *of, size_t index, SbStatus status, const SbReport *repor
   atomic_store(&of->stop, true);
 }
 
-static void *work(void *data) {
+static void *work_slopes(void *data) {
   Tasks *of = data;
   SbEvaluator *evaluator = NULL;
   SbReport report = {0};
@@ -108,15 +108,15 @@ static void *work(void *data) {
 
 SbStatus sb_tasks(SbTask task, void *data, size_t count, int jobs, SbReport *report) {
   Tasks of = {.task = task, .data = data, .count = count, .failed = SIZE_MAX};
-  pthread_t thread[JOBS_MAX];
+  pthread_t thread[SLOPES_JOBS_MAX];
   int started = 0;
   pthread_mutex_init(&of.lock, NULL);
   // One of them is the calling thread.
-  while (started + 1 < jobs && started < JOBS_MAX && (size_t)started + 1 < count &&
-         pthread_create(&thread[started], NULL, work, &of) == 0) {
+  while (started + 1 < jobs && started < SLOPES_JOBS_MAX && (size_t)started + 1 < count &&
+         pthread_create(&thread[started], NULL, work_slopes, &of) == 0) {
     started++;
   }
-  (void)work(&of);
+  (void)work_slopes(&of);
   for (int i = 0; i < started; i++) {
     pthread_join(thread[i], NULL);
   }

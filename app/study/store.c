@@ -178,7 +178,7 @@ static bool check_format(SbStore *store, bool *empty, int oldest, GError **error
   return true;
 }
 
-static bool prepare(SbStore *store, GError **error) {
+static bool prepare_store(SbStore *store, GError **error) {
   static const char get[] = "SELECT key, list, status, reason, warnings, parameters, figures, sum "
                             "FROM answer WHERE key = ? AND list = ?";
   static const char put[] = "INSERT OR REPLACE INTO answer VALUES (?, ?, ?, ?, ?, ?, ?, ?)";
@@ -217,7 +217,7 @@ static bool open_writable(SbStore *store, GError **error) {
       run_sql(store, "PRAGMA locking_mode = EXCLUSIVE; PRAGMA journal_mode = DELETE", error) &&
       run_sql(store, "BEGIN IMMEDIATE", error);
   return store->open_transaction && check_format(store, &empty, SB_STORE_FORMAT, error) &&
-         (!empty || make_tables(store, error)) && prepare(store, error);
+         (!empty || make_tables(store, error)) && prepare_store(store, error);
 }
 
 // False without an error where only opening for writing can help: an empty file, or one that a
@@ -227,7 +227,7 @@ static bool open_readable(SbStore *store, int flags, int oldest, GError **error)
   g_autoptr(GError) found = NULL;
   close_file(store);
   if (sb_store_open_file(store, flags, &found) && check_format(store, &empty, oldest, &found) &&
-      !empty && (store->format < SB_STORE_FORMAT || prepare(store, &found))) {
+      !empty && (store->format < SB_STORE_FORMAT || prepare_store(store, &found))) {
     return true;
   }
   const int result = sqlite3_errcode(store->file);

@@ -9,7 +9,7 @@
 
 // ---- Runs ----
 
-static bool on_cancelled(void *data) {
+static bool on_chart_cancelled(void *data) {
   return sb_thesis_stopped(data);
 }
 
@@ -62,7 +62,7 @@ static SbRun *compute_run(SbThesisWork *work, const SbThesisGrid *grid, const Sb
   SbRun *run = NULL;
   SbPlan plan;
   SbReport report = {0};
-  const SbRunHooks hooks = {.cancelled = on_cancelled, .data = work, .alone = true};
+  const SbRunHooks hooks = {.cancelled = on_chart_cancelled, .data = work, .alone = true};
   sb_plan_make(&plan, model);
   SbStatus status = sb_run_create(&run, model, &plan, &report);
   status = status == SB_OK ? sb_run_execute(run, &hooks, &report) : status;

@@ -160,7 +160,7 @@ static bool is_bounded(const SbThesisRow *row) {
   return false;
 }
 
-static void judge(SbThesisRow *row, double most) {
+static void judge_rows(SbThesisRow *row, double most) {
   const double ours = isfinite(row->thesis) ? row->thesis : row->consistent;
   const double slack = row->rounding + 1e-12 * fabs(row->printed);
   if (!isfinite(row->thesis) && row->no_thesis == NULL) {
@@ -201,7 +201,7 @@ static void take_unit(SbThesisRow *row, const SbThesisPlace *at, const char *gro
             sizeof row->shown);
 }
 
-static void take_printed(SbThesisRow *row, const SbThesisPlace *at, const char *group) {
+static void take_rows_printed(SbThesisRow *row, const SbThesisPlace *at, const char *group) {
   const char *text = sb_thesis_key(at->work, group, "printed");
   row->printed = row->difference = row->remains = NAN;
   row->rounding = 0;
@@ -240,7 +240,7 @@ static SbThesisRow *row_of(SbThesisPlace *at, const char *group) {
       sb_thesis_with_cells(at, label != NULL ? label : group + strlen("rows "));
   row->label = sb_thesis_filled(at, named, group, "label");
   take_unit(row, at, group);
-  take_printed(row, at, group);
+  take_rows_printed(row, at, group);
   at->printed = row->printed;
   row->thesis = thesis != NULL ? evaluate(at, thesis, group, "thesis", &row->no_thesis) : NAN;
   at->thesis = row->thesis;
@@ -263,7 +263,7 @@ static SbThesisRow *row_of(SbThesisPlace *at, const char *group) {
   if (isfinite(row->consistent) && isfinite(row->thesis)) {
     read_parts(row->models, at, group, "model", row->consistent, true);
   }
-  judge(row, most);
+  judge_rows(row, most);
   return row;
 }
 

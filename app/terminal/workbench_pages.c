@@ -180,7 +180,7 @@ static void draw_propellants(SbBench *bench, SbCellRect rect) {
 // Measured ---------------------------------------------------------------------------------------
 
 // Draws the table of forces at the stages from row `y`. Returns its last row.
-static int draw_stages(SbBench *bench, const SbComparison *measured, int y) {
+static int draw_pages_stages(SbBench *bench, const SbComparison *measured, int y) {
   SbCells *cells = &bench->cells;
   const SbPen plain = sb_bench_pen(bench, SB_ROLE_INK, 0);
   const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
@@ -227,7 +227,7 @@ static void draw_calibrate(SbBench *bench, SbCellRect rect) {
     return;
   }
   enum { TABLE = 40 };
-  const int y = draw_stages(bench, measured, rect.y + 2);
+  const int y = draw_pages_stages(bench, measured, rect.y + 2);
   g_autofree char *rms = sb_measured_difference(measured->rms);
   g_autofree char *most = sb_measured_difference(measured->most);
   g_autofree char *text =

@@ -67,7 +67,7 @@ static void draw_bar(SbBench *bench, SbCellRect rect, int y, const char *name, d
                sb_bench_pen(bench, role, 0));
 }
 
-static void draw_now(SbBench *bench, SbCellRect rect) {
+static void draw_valve_now(SbBench *bench, SbCellRect rect) {
   const SbChartData *data = sb_session_chart(bench->session);
   const SbChartPredicted *predicted = data->predicted;
   const SbFrame *frame = predicted != NULL ? predicted->run.frames : sb_chart_frame(data);
@@ -147,7 +147,7 @@ static void draw_table(SbBench *bench, SbCellRect rect) {
     compare_row(bench, rect.x, y, _(compared[i].label), sb_figure_find(compared[i].figure), summary,
                 own);
   }
-  draw_now(bench, (SbCellRect){rect.x, y + 1, rect.width, rect.y + rect.height - y - 1});
+  draw_valve_now(bench, (SbCellRect){rect.x, y + 1, rect.width, rect.y + rect.height - y - 1});
 }
 
 // Section ----------------------------------------------------------------------------------------

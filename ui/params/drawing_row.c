@@ -13,7 +13,7 @@ typedef struct {
   SbDrawingKind kind;
   GtkWidget *button, *none;
   SbLater later; // the file chooser
-} Row;
+} DrawingRow;
 
 typedef struct {
   SbSealDrawing section;
@@ -21,11 +21,11 @@ typedef struct {
   SbGrooveDrawing groove;
 } Drawing;
 
-static const char *title_of(SbDrawingKind kind) {
+static const char *drawing_title_of(SbDrawingKind kind) {
   return kind == SB_DRAWING_SECTION ? _("Drawn section") : _("Drawn groove");
 }
 
-static void free_row(Row *row) {
+static void free_row(DrawingRow *row) {
   g_object_unref(row->session);
   g_free(row);
 }
@@ -54,7 +54,7 @@ static void read_groove(GTask *task, gpointer source, gpointer path, GCancellabl
 }
 
 static void on_read(GObject *widget, GAsyncResult *result, gpointer ignored) {
-  Row *row = g_object_get_data(widget, "row");
+  DrawingRow *row = g_object_get_data(widget, "row");
   GError *error = NULL;
   g_autofree Drawing *drawing = g_task_propagate_pointer(G_TASK(result), &error);
   gtk_widget_set_sensitive(row->button, TRUE);
@@ -69,7 +69,7 @@ static void on_read(GObject *widget, GAsyncResult *result, gpointer ignored) {
 }
 
 static void read_file(GtkWidget *widget, const char *path) {
-  Row *row = g_object_get_data(G_OBJECT(widget), "row");
+  DrawingRow *row = g_object_get_data(G_OBJECT(widget), "row");
   g_autoptr(GTask) task = g_task_new(widget, NULL, on_read, NULL);
   g_task_set_task_data(task, g_strdup(path), g_free);
   gtk_widget_set_sensitive(row->button, FALSE);
@@ -78,7 +78,7 @@ static void read_file(GtkWidget *widget, const char *path) {
 
 static void choose(gpointer data) {
   g_autoptr(GtkWidget) widget = g_object_ref(data); // the dialog runs a main loop
-  const Row *row = g_object_get_data(G_OBJECT(widget), "row");
+  const DrawingRow *row = g_object_get_data(G_OBJECT(widget), "row");
   GtkWindow *window = GTK_WINDOW(gtk_widget_get_toplevel(widget));
   const char *title =
       row->kind == SB_DRAWING_SECTION ? _("Section of the seals") : _("Outline of the grooves");
@@ -92,7 +92,7 @@ static void choose(gpointer data) {
 
 // When the button's own event is over: the dialog has a loop of its own.
 static void on_choose(GtkWidget *button, GtkWidget *widget) {
-  Row *row = g_object_get_data(G_OBJECT(widget), "row");
+  DrawingRow *row = g_object_get_data(G_OBJECT(widget), "row");
   sb_later_ensure(&row->later, widget, 0, choose, widget);
 }
 
@@ -109,25 +109,25 @@ static void on_dropped(GtkWidget *widget, GdkDragContext *context, int x, int y,
 }
 
 static void on_none(GtkWidget *button, GtkWidget *widget) {
-  Row *row = g_object_get_data(G_OBJECT(widget), "row");
+  DrawingRow *row = g_object_get_data(G_OBJECT(widget), "row");
   sb_session_set_groove(row->session, NULL, NULL);
 }
 
 void sb_drawing_row_refresh(GtkWidget *widget) {
-  Row *row = g_object_get_data(G_OBJECT(widget), "row");
+  DrawingRow *row = g_object_get_data(G_OBJECT(widget), "row");
   const SbDocument *document = sb_session_document(row->session);
   const char *name = row->kind == SB_DRAWING_SECTION ? sb_document_section(document)
                                                      : sb_document_groove(document);
   g_autofree char *shown = name != NULL ? g_path_get_basename(name) : g_strdup(_("Choose…"));
   gtk_button_set_label(GTK_BUTTON(row->button), shown);
-  sb_style_name(row->button, title_of(row->kind), shown);
+  sb_style_name(row->button, drawing_title_of(row->kind), shown);
   if (row->none != NULL) {
     gtk_widget_set_visible(row->none, sb_document_may_drop_groove(document));
   }
 }
 
 // The groove's: beside the button one that does without. Sections go by the choice of the profile.
-static GtkWidget *with_none(Row *row) {
+static GtkWidget *with_none(DrawingRow *row) {
   GtkWidget *both = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
   row->none = gtk_button_new_from_icon_name("edit-clear-symbolic", GTK_ICON_SIZE_BUTTON);
   gtk_widget_set_tooltip_text(row->none, _("No drawn groove"));
@@ -139,7 +139,7 @@ static GtkWidget *with_none(Row *row) {
 }
 
 GtkWidget *sb_drawing_row_new(SbSession *session, SbDrawingKind kind) {
-  Row *row = g_new0(Row, 1);
+  DrawingRow *row = g_new0(DrawingRow, 1);
   row->session = g_object_ref(session);
   row->kind = kind;
   row->button = gtk_button_new_with_label("");
@@ -150,7 +150,7 @@ GtkWidget *sb_drawing_row_new(SbSession *session, SbDrawingKind kind) {
           : _("Reads floor and walls of both grooves from points, a DXF or a STEP of their "
               "outline; the distance of the walls is the axial width (gland.profile_file)");
   GtkWidget *chooser = kind == SB_DRAWING_SECTION ? row->button : with_none(row);
-  GtkWidget *box = sb_own_row_new(title_of(kind), tip, chooser);
+  GtkWidget *box = sb_own_row_new(drawing_title_of(kind), tip, chooser);
   g_object_set_data_full(G_OBJECT(box), "row", row, (GDestroyNotify)free_row);
   g_signal_connect(row->button, "clicked", G_CALLBACK(on_choose), box);
   if (row->none != NULL) {

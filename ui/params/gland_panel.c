@@ -40,7 +40,7 @@ typedef struct {
   SbSession *session;
   GtkWidget *expander;
   GtkWidget *cell[ROWS][CELLS];
-} Panel;
+} GlandPanel;
 
 static char *number(SbQuantity format, double value) {
   char text[SB_FORMAT_MAX];
@@ -100,7 +100,7 @@ static void set_class(GtkWidget *widget, const char *style) {
   }
 }
 
-static void show_row(Panel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT]) {
+static void show_row(GlandPanel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT]) {
   SbQuantity format = rows[row].format;
   GtkWidget **cell = panel->cell[row];
   g_autofree char *tip = tip_text(format, readout);
@@ -146,7 +146,7 @@ static void show_row(Panel *panel, int row, SbGlandReadout readout[SB_SEAL_COUNT
   sb_style_name(cell[1], spoken, tip);
 }
 
-static void refresh(Panel *panel) {
+static void refresh_gland(GlandPanel *panel) {
   const SbModel *model = sb_session_model(panel->session);
   SbGlandReadout all[SB_SEAL_COUNT][SB_GLAND_COUNT];
   gboolean swollen = FALSE;
@@ -180,7 +180,7 @@ static void refresh(Panel *panel) {
 }
 
 GtkWidget *sb_gland_panel_new(SbSession *session) {
-  Panel *panel = g_new0(Panel, 1);
+  GlandPanel *panel = g_new0(GlandPanel, 1);
   panel->session = session;
   GtkWidget *grid = gtk_grid_new();
   gtk_grid_set_row_spacing(GTK_GRID(grid), 4);
@@ -212,8 +212,8 @@ GtkWidget *sb_gland_panel_new(SbSession *session) {
   gtk_container_add(GTK_CONTAINER(expander), grid);
   g_object_set_data_full(G_OBJECT(expander), "panel", panel, g_free);
   sb_signals_end_with(expander, panel->session, panel);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), panel);
-  refresh(panel);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_gland), panel);
+  refresh_gland(panel);
   gtk_widget_show(grid);
   return expander;
 }

@@ -212,7 +212,7 @@ static void on_goal(GtkComboBox *goal, SbParamPanel *panel) {
   show_effects(panel);
 }
 
-static void refresh(SbParamPanel *panel) {
+static void refresh_params(SbParamPanel *panel) {
   for (int id = 0; id < SB_PARAM_COUNT; id++) {
     sb_param_row_refresh(SB_PARAM_ROW(panel->row[id]));
   }
@@ -357,9 +357,10 @@ GtkWidget *sb_param_panel_new(SbSession *session) {
       gtk_box_pack_start(GTK_BOX(group_at(panel, panel->group_of[id])->box), row, FALSE, FALSE, 0);
     }
   }
-  g_signal_connect_object(session, "params-changed", G_CALLBACK(refresh), panel, G_CONNECT_SWAPPED);
+  g_signal_connect_object(session, "params-changed", G_CALLBACK(refresh_params), panel,
+                          G_CONNECT_SWAPPED);
   gtk_widget_show_all(GTK_WIDGET(panel->list));
-  refresh(panel);
+  refresh_params(panel);
   sb_param_panel_set_filter(panel, SB_PARAM_FILTER_ALL);
   return GTK_WIDGET(panel);
 }

@@ -402,13 +402,13 @@ gboolean sb_param_row_help(GtkWidget *widget) {
   return row != NULL;
 }
 
-static void finalize(GObject *object) {
+static void finalize_param_row(GObject *object) {
   g_free(SB_PARAM_ROW(object)->flags);
   G_OBJECT_CLASS(sb_param_row_parent_class)->finalize(object);
 }
 
 static void sb_param_row_class_init(SbParamRowClass *class) {
-  G_OBJECT_CLASS(class)->finalize = finalize;
+  G_OBJECT_CLASS(class)->finalize = finalize_param_row;
 }
 
 static void sb_param_row_init(SbParamRow *row) {}

@@ -7,7 +7,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { WIDTH = 400, HEIGHT = 170, MARGIN = 8 };
+enum { SKETCH_WIDTH = 400, HEIGHT = 170, MARGIN = 8 };
 
 // A dimension: between two places along the axis at a radius, between two radii, or a diameter,
 // whose line begins on the axis.
@@ -240,7 +240,7 @@ GtkWidget *sb_param_sketch_new(const SbModel *model, SbParamId id) {
   }
   sketch->symbol = sb_param(id)->symbol;
   GtkWidget *area = gtk_drawing_area_new();
-  gtk_widget_set_size_request(area, WIDTH, HEIGHT);
+  gtk_widget_set_size_request(area, SKETCH_WIDTH, HEIGHT);
   g_object_set_data_full(G_OBJECT(area), "sketch", sketch, g_free);
   g_signal_connect(area, "draw", G_CALLBACK(draw), sketch);
   return area;

@@ -37,7 +37,7 @@ static void fill(Row *row) {
   row->refreshing = FALSE;
 }
 
-static void on_choice(GtkComboBox *combo, Row *row) {
+static void on_rubber_choice(GtkComboBox *combo, Row *row) {
   const char *id = gtk_combo_box_get_active_id(combo);
   if (row->refreshing || id == NULL) {
     return;
@@ -77,7 +77,7 @@ GtkWidget *sb_rubber_row_new(SbSession *session) {
                      row->combo);
   g_object_set_data_full(G_OBJECT(box), "row", row, g_free);
   fill(row);
-  g_signal_connect(row->combo, "changed", G_CALLBACK(on_choice), row);
+  g_signal_connect(row->combo, "changed", G_CALLBACK(on_rubber_choice), row);
   g_signal_connect_swapped(row->combo, "notify::popup-shown", G_CALLBACK(on_popup), row);
   return box;
 }

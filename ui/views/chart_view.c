@@ -338,7 +338,7 @@ static void show_change(SbChartWidget *view, gboolean later) {
   sb_later_ensure(&view->describe, view->area, 200, sb_chart_view_describe, view);
 }
 
-static void on_change(SbChartWidget *view) {
+static void on_chart_change(SbChartWidget *view) {
   show_change(view, FALSE);
 }
 
@@ -376,7 +376,7 @@ GtkWidget *sb_chart_view_new(SbSession *session, SbChartViewKind kind) {
   sb_signals_end_with(view->area, view->session, view);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_run), view);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_run), view);
-  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_change), view);
+  g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(on_chart_change), view);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_params), view);
   sb_chart_view_describe(view);
   gtk_widget_set_visible(view->area, applies(view));

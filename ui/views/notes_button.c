@@ -308,7 +308,7 @@ static void refresh(gpointer data) {
   }
 }
 
-static void on_change(Notes *notes) {
+static void on_notes_change(Notes *notes) {
   sb_later_ensure(&notes->later, notes->button, 0, refresh, notes);
 }
 
@@ -392,8 +392,8 @@ GtkWidget *sb_notes_button_new(SbSession *session) {
   gtk_menu_button_set_popover(GTK_MENU_BUTTON(notes->button), notes->popover);
   g_signal_connect_swapped(notes->popover, "closed", G_CALLBACK(take), notes);
   sb_signals_end_with(notes->button, notes->session, notes);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), notes);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), notes);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_notes_change), notes);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_notes_change), notes);
   refresh(notes);
   return notes->button;
 }

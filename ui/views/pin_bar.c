@@ -16,7 +16,7 @@ typedef struct {
   SbSession *session;
   GtkWidget *box, *chips, *kept, *kept_label, *list;
   char *shown;   // what the lists show
-  SbLater later; // refresh()
+  SbLater later; // refresh_pins()
 } Bar;
 
 static size_t index_of(GtkWidget *widget) {
@@ -27,7 +27,7 @@ static void set_index(GtkWidget *widget, size_t index) {
   g_object_set_data(G_OBJECT(widget), "pin", GSIZE_TO_POINTER(index));
 }
 
-static void on_drop(GtkWidget *button, Bar *bar) {
+static void on_pins_drop(GtkWidget *button, Bar *bar) {
   sb_session_unpin(bar->session, index_of(button));
 }
 
@@ -52,7 +52,7 @@ static void take_name(GtkWidget *entry, Bar *bar) {
   }
 }
 
-static gboolean on_name_left(GtkWidget *entry, GdkEvent *event, Bar *bar) {
+static gboolean on_pins_name_left(GtkWidget *entry, GdkEvent *event, Bar *bar) {
   take_name(entry, bar);
   return GDK_EVENT_PROPAGATE;
 }
@@ -84,7 +84,7 @@ static GtkWidget *drop_new(Bar *bar, size_t index) {
   gtk_widget_set_tooltip_text(drop, name);
   gtk_button_set_relief(GTK_BUTTON(drop), GTK_RELIEF_NONE);
   set_index(drop, index);
-  g_signal_connect(drop, "clicked", G_CALLBACK(on_drop), bar);
+  g_signal_connect(drop, "clicked", G_CALLBACK(on_pins_drop), bar);
   return drop;
 }
 
@@ -141,7 +141,7 @@ static void add_row(Bar *bar, size_t index) {
   sb_style_name(entry, spoken, NULL);
   set_index(entry, index);
   g_signal_connect(entry, "activate", G_CALLBACK(take_name), bar);
-  g_signal_connect(entry, "focus-out-event", G_CALLBACK(on_name_left), bar);
+  g_signal_connect(entry, "focus-out-event", G_CALLBACK(on_pins_name_left), bar);
   gtk_grid_attach(grid, entry, 2, row, 1, 1);
   gtk_grid_attach(grid, result_new(bar, index), 3, row, 1, 1);
   GtkWidget *use = gtk_button_new_with_label(_("Use"));
@@ -155,16 +155,16 @@ static void add_row(Bar *bar, size_t index) {
   gtk_grid_attach(grid, drop_new(bar, index), 5, row, 1, 1);
 }
 
-static void destroy(GtkWidget *widget, gpointer data) {
+static void destroy_pins(GtkWidget *widget, gpointer data) {
   gtk_widget_destroy(widget);
 }
 
 static void clear(GtkWidget *container) {
-  gtk_container_foreach(GTK_CONTAINER(container), destroy, NULL);
+  gtk_container_foreach(GTK_CONTAINER(container), destroy_pins, NULL);
 }
 
 // All that is shown, to see whether it has changed.
-static char *shown_text(SbSession *session) {
+static char *shown_pin_text(SbSession *session) {
   GString *text = g_string_new(NULL);
   const size_t count = sb_session_pin_count(session);
   for (size_t i = 0; i < count; i++) {
@@ -177,9 +177,9 @@ static char *shown_text(SbSession *session) {
   return g_string_free(text, FALSE);
 }
 
-static void refresh(gpointer data) {
+static void refresh_pins(gpointer data) {
   Bar *bar = data;
-  char *text = shown_text(bar->session);
+  char *text = shown_pin_text(bar->session);
   if (g_strcmp0(text, bar->shown) == 0) {
     g_free(text);
     return;
@@ -205,8 +205,8 @@ static void refresh(gpointer data) {
   }
 }
 
-static void on_change(Bar *bar) {
-  sb_later_ensure(&bar->later, bar->box, 0, refresh, bar);
+static void on_pins_change(Bar *bar) {
+  sb_later_ensure(&bar->later, bar->box, 0, refresh_pins, bar);
 }
 
 static void bar_free(gpointer data) {
@@ -247,8 +247,8 @@ GtkWidget *sb_pin_bar_new(SbSession *session) {
   gtk_widget_set_no_show_all(bar->kept, TRUE);
   gtk_widget_hide(bar->kept);
   sb_signals_end_with(bar->box, bar->session, bar);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), bar);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), bar);
-  refresh(bar);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_pins_change), bar);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_pins_change), bar);
+  refresh_pins(bar);
   return bar->box;
 }

@@ -217,7 +217,7 @@ static void draw_pins(const SbSectionHandles *handles, SbCanvas *c) {
   }
 }
 
-static gboolean draw(GtkWidget *widget, cairo_t *cr, SbSectionHandles *handles) {
+static gboolean draw_handles(GtkWidget *widget, cairo_t *cr, SbSectionHandles *handles) {
   if (handles->count == 0) {
     return GDK_EVENT_PROPAGATE;
   }
@@ -437,7 +437,7 @@ SbSectionHandles *sb_section_handles_new(SbSession *session, GtkOverlay *overlay
   handles->layer = gtk_drawing_area_new();
   gtk_widget_set_has_window(handles->layer, FALSE); // the pointer is the picture's
   g_object_set_data_full(G_OBJECT(handles->layer), "handles", handles, g_free);
-  g_signal_connect(handles->layer, "draw", G_CALLBACK(draw), handles);
+  g_signal_connect(handles->layer, "draw", G_CALLBACK(draw_handles), handles);
   gtk_overlay_add_overlay(overlay, handles->layer);
   gtk_overlay_set_overlay_pass_through(overlay, handles->layer, TRUE);
   return handles;

@@ -11,7 +11,7 @@ void sb_section_clamp_pan(SbSectionWidget *view) {
 }
 
 // Zooms so that the point (x, y) of the widget stays where it is.
-static void zoom_at(SbSectionWidget *view, double factor, double x, double y) {
+static void zoom_pointer_at(SbSectionWidget *view, double factor, double x, double y) {
   double zoom = fmin(fmax(view->zoom * factor, 1), 6);
   view->pan_x = (view->pan_x + x) * zoom / view->zoom - x;
   view->pan_y = (view->pan_y + y) * zoom / view->zoom - y;
@@ -24,8 +24,8 @@ static void zoom_at(SbSectionWidget *view, double factor, double x, double y) {
 void sb_section_view_zoom(GtkWidget *widget, int direction) {
   SbSectionWidget *view = g_object_get_data(G_OBJECT(widget), "view");
   double factor = direction > 0 ? 1.5 : direction < 0 ? 1 / 1.5 : 1e-9;
-  zoom_at(view, factor, gtk_widget_get_allocated_width(view->area) / 2.0,
-          gtk_widget_get_allocated_height(view->area) * 0.75);
+  zoom_pointer_at(view, factor, gtk_widget_get_allocated_width(view->area) / 2.0,
+                  gtk_widget_get_allocated_height(view->area) * 0.75);
 }
 
 // The camera moves by angles from where it was; it goes round the valve, but not over it.
@@ -50,7 +50,7 @@ void sb_section_view_turn(GtkWidget *widget, int right, int up) {
   }
 }
 
-static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, SbSectionWidget *view) {
+static gboolean on_pointer_scroll(GtkWidget *widget, GdkEventScroll *event, SbSectionWidget *view) {
   double dx = 0;
   double dy = 0;
   if (event->direction == GDK_SCROLL_UP) {
@@ -60,7 +60,7 @@ static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, SbSectionWid
   } else {
     gdk_event_get_scroll_deltas((GdkEvent *)event, &dx, &dy);
   }
-  zoom_at(view, pow(1.2, -dy), event->x, event->y);
+  zoom_pointer_at(view, pow(1.2, -dy), event->x, event->y);
   return GDK_EVENT_STOP;
 }
 
@@ -71,7 +71,7 @@ static gboolean on_gl_scroll(GtkWidget *widget, GdkEventScroll *event, SbSection
   gtk_widget_translate_coordinates(widget, view->area, 0, 0, &x, &y);
   event->x += x;
   event->y += y;
-  return on_scroll(view->area, event, view);
+  return on_pointer_scroll(view->area, event, view);
 }
 
 // A point of a widget over the picture in the picture's own pixels.
@@ -81,7 +81,7 @@ static SbPoint in_area(GtkWidget *widget, double x, double y, SbSectionWidget *v
   return (SbPoint){x + dx, y + dy};
 }
 
-static gboolean on_press(GtkWidget *widget, GdkEventButton *event, SbSectionWidget *view) {
+static gboolean on_pointer_press(GtkWidget *widget, GdkEventButton *event, SbSectionWidget *view) {
   gtk_widget_grab_focus(view->area);
   const SbPoint at = in_area(widget, event->x, event->y, view);
   view->pans = FALSE;
@@ -103,24 +103,27 @@ static gboolean on_press(GtkWidget *widget, GdkEventButton *event, SbSectionWidg
   return GDK_EVENT_STOP;
 }
 
-static gboolean on_release(GtkWidget *widget, GdkEventButton *event, SbSectionWidget *view) {
+static gboolean on_pointer_release(GtkWidget *widget, GdkEventButton *event,
+                                   SbSectionWidget *view) {
   view->pans = FALSE;
   sb_section_handles_release(view->handles);
   return GDK_EVENT_STOP;
 }
 
 // A new layout under a pointer at rest leaves one widget for another without any motion.
-static gboolean on_enter(GtkWidget *widget, GdkEventCrossing *event, SbSectionWidget *view) {
+static gboolean on_pointer_enter(GtkWidget *widget, GdkEventCrossing *event,
+                                 SbSectionWidget *view) {
   sb_section_handles_enter(view->handles);
   return GDK_EVENT_PROPAGATE;
 }
 
-static gboolean on_leave(GtkWidget *widget, GdkEventCrossing *event, SbSectionWidget *view) {
+static gboolean on_pointer_leave(GtkWidget *widget, GdkEventCrossing *event,
+                                 SbSectionWidget *view) {
   sb_section_handles_leave(view->handles);
   return GDK_EVENT_PROPAGATE;
 }
 
-static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, SbSectionWidget *view) {
+static gboolean on_pointer_motion(GtkWidget *widget, GdkEventMotion *event, SbSectionWidget *view) {
   const SbPoint at = in_area(widget, event->x, event->y, view);
   if (sb_section_handles_motion(view->handles, at.x, at.y, event->state) || !view->pans) {
     return GDK_EVENT_STOP;
@@ -144,15 +147,15 @@ static void take_pointer(GtkWidget *widget, GCallback scrolled, SbSectionWidget 
                                     GDK_POINTER_MOTION_MASK | GDK_ENTER_NOTIFY_MASK |
                                     GDK_LEAVE_NOTIFY_MASK | GDK_SCROLL_MASK |
                                     GDK_SMOOTH_SCROLL_MASK);
-  g_signal_connect(widget, "button-release-event", G_CALLBACK(on_release), view);
-  g_signal_connect(widget, "enter-notify-event", G_CALLBACK(on_enter), view);
-  g_signal_connect(widget, "leave-notify-event", G_CALLBACK(on_leave), view);
+  g_signal_connect(widget, "button-release-event", G_CALLBACK(on_pointer_release), view);
+  g_signal_connect(widget, "enter-notify-event", G_CALLBACK(on_pointer_enter), view);
+  g_signal_connect(widget, "leave-notify-event", G_CALLBACK(on_pointer_leave), view);
   g_signal_connect(widget, "scroll-event", scrolled, view);
-  g_signal_connect(widget, "button-press-event", G_CALLBACK(on_press), view);
-  g_signal_connect(widget, "motion-notify-event", G_CALLBACK(on_motion), view);
+  g_signal_connect(widget, "button-press-event", G_CALLBACK(on_pointer_press), view);
+  g_signal_connect(widget, "motion-notify-event", G_CALLBACK(on_pointer_motion), view);
 }
 
 void sb_section_take_pointers(SbSectionWidget *view) {
-  take_pointer(view->area, G_CALLBACK(on_scroll), view);
+  take_pointer(view->area, G_CALLBACK(on_pointer_scroll), view);
   take_pointer(view->gl, G_CALLBACK(on_gl_scroll), view);
 }

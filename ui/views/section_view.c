@@ -160,7 +160,7 @@ static SbSectionView view_of(SbSectionWidget *view, const SbRun *run, SbRect pic
   return how;
 }
 
-static void draw(cairo_t *cr, double area_width, double area_height, void *user) {
+static void draw_section(cairo_t *cr, double area_width, double area_height, void *user) {
   SbSectionWidget *view = user;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData *data = sb_session_chart(view->session);
@@ -391,7 +391,7 @@ GtkWidget *sb_section_view_new(SbSession *session) {
   gtk_box_pack_start(GTK_BOX(view->box), sb_section_toolbar_new(view), FALSE, FALSE, 0);
 
   view->area = sb_canvas_area_new(380, 400, 240, 320);
-  view->cache = sb_draw_cache_attach(view->area, draw, view);
+  view->cache = sb_draw_cache_attach(view->area, draw_section, view);
   sb_style_class(view->area, "sb-canvas");
   gtk_widget_set_can_focus(view->area, TRUE);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_IMAGE);

@@ -5,7 +5,7 @@ typedef struct {
   gpointer instance, data;
 } Handlers;
 
-static void on_destroy(GtkWidget *widget, Handlers *handlers) {
+static void on_signals_destroy(GtkWidget *widget, Handlers *handlers) {
   g_signal_handlers_disconnect_by_data(handlers->instance, handlers->data);
 }
 
@@ -16,5 +16,6 @@ static void handlers_free(gpointer data, GClosure *closure) {
 void sb_signals_end_with(GtkWidget *widget, gpointer instance, gpointer data) {
   Handlers *handlers = g_new(Handlers, 1);
   *handlers = (Handlers){instance, data};
-  g_signal_connect_data(widget, "destroy", G_CALLBACK(on_destroy), handlers, handlers_free, 0);
+  g_signal_connect_data(widget, "destroy", G_CALLBACK(on_signals_destroy), handlers, handlers_free,
+                        0);
 }

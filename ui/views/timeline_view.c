@@ -27,38 +27,40 @@ typedef struct {
   double cycle;     // duration that the speed texts were made for [s]
 } View;
 
-enum { INTERVAL = 33 }; // between drawings while something moves [ms]
+enum { TIMELINE_INTERVAL = 33 }; // between drawings while something moves [ms]
 
 static const int durations[] = {2, 5, 10, 20, 60, 0}; // seconds per cycle; 0: real time
 
-static SbRect inside(double width, double height) {
+static SbRect inside_timeline(double width, double height) {
   return (SbRect){8, 10, fmax(width - 28, 1), fmax(height - 14, 1)};
 }
 
-static SbRect whole(GtkWidget *widget) {
-  return inside(gtk_widget_get_allocated_width(widget), gtk_widget_get_allocated_height(widget));
+static SbRect whole_timeline(GtkWidget *widget) {
+  return inside_timeline(gtk_widget_get_allocated_width(widget),
+                         gtk_widget_get_allocated_height(widget));
 }
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
+static void draw_timeline(cairo_t *cr, double width, double height, void *user) {
   View *view = user;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
-  sb_timeline_draw(cr, inside(width, height), theme, sb_session_chart(view->session),
+  sb_timeline_draw(cr, inside_timeline(width, height), theme, sb_session_chart(view->session),
                    SB_CHART_COMPACT);
 }
 
-static void scrub(View *view, double x) {
+static void scrub_timeline(View *view, double x) {
   size_t frame = 0;
-  if (sb_timeline_hit(&frame, whole(view->area), sb_session_chart(view->session), x)) {
+  if (sb_timeline_hit(&frame, whole_timeline(view->area), sb_session_chart(view->session), x)) {
     sb_session_play(view->session, FALSE);
     sb_session_set_playhead(view->session, frame);
   }
 }
 
 static gboolean marker_at(View *view, double x, double y, size_t *marker) {
-  return sb_timeline_marker_hit(marker, whole(view->area), sb_session_chart(view->session), x, y);
+  return sb_timeline_marker_hit(marker, whole_timeline(view->area), sb_session_chart(view->session),
+                                x, y);
 }
 
-static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
+static gboolean on_timeline_press(GtkWidget *widget, GdkEventButton *event, View *view) {
   gtk_widget_grab_focus(widget);
   size_t marker = 0;
   view->scrubs = FALSE;
@@ -69,7 +71,7 @@ static gboolean on_press(GtkWidget *widget, GdkEventButton *event, View *view) {
     sb_session_show_time(view->session, sb_session_chart(view->session)->marker[marker].time);
   } else {
     view->scrubs = TRUE;
-    scrub(view, event->x);
+    scrub_timeline(view, event->x);
   }
   return GDK_EVENT_STOP;
 }
@@ -89,14 +91,14 @@ static gboolean on_tooltip(GtkWidget *widget, int x, int y, gboolean by_keys, Gt
   return TRUE;
 }
 
-static gboolean on_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
+static gboolean on_timeline_motion(GtkWidget *widget, GdkEventMotion *event, View *view) {
   if (view->scrubs) {
-    scrub(view, event->x);
+    scrub_timeline(view, event->x);
   }
   return GDK_EVENT_STOP;
 }
 
-static gboolean on_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
+static gboolean on_timeline_scroll(GtkWidget *widget, GdkEventScroll *event, View *view) {
   if (event->direction == GDK_SCROLL_UP) {
     sb_session_step(view->session, -1);
   } else if (event->direction == GDK_SCROLL_DOWN) {
@@ -172,7 +174,7 @@ static void show_playing(View *view, gboolean playing) {
   view->playing = playing;
 }
 
-static void describe(gpointer data) {
+static void describe_timeline(gpointer data) {
   View *view = data;
   g_autofree char *where = sb_session_where(view->session);
   sb_style_name(view->area, _("Timeline"), where[0] != '\0' ? where : _("No run yet"));
@@ -182,8 +184,8 @@ static void on_playhead(View *view) {
   if (sb_session_is_playing(view->session) != view->playing) {
     show_playing(view, !view->playing);
   }
-  sb_later_ensure(&view->describe, view->area, 200, describe, view);
-  sb_draw_cache_change(view->cache, sb_session_wants_ticks(view->session) ? INTERVAL : 0);
+  sb_later_ensure(&view->describe, view->area, 200, describe_timeline, view);
+  sb_draw_cache_change(view->cache, sb_session_wants_ticks(view->session) ? TIMELINE_INTERVAL : 0);
 }
 
 static void on_frames(View *view) {
@@ -260,10 +262,10 @@ GtkWidget *sb_timeline_view_new(SbSession *session) {
   gtk_widget_add_events(view->area,
                         GDK_BUTTON_PRESS_MASK | GDK_BUTTON1_MOTION_MASK | GDK_SCROLL_MASK);
   atk_object_set_role(gtk_widget_get_accessible(view->area), ATK_ROLE_SLIDER);
-  view->cache = sb_draw_cache_attach(view->area, draw, view);
-  g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_press), view);
-  g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_motion), view);
-  g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_scroll), view);
+  view->cache = sb_draw_cache_attach(view->area, draw_timeline, view);
+  g_signal_connect(view->area, "button-press-event", G_CALLBACK(on_timeline_press), view);
+  g_signal_connect(view->area, "motion-notify-event", G_CALLBACK(on_timeline_motion), view);
+  g_signal_connect(view->area, "scroll-event", G_CALLBACK(on_timeline_scroll), view);
   gtk_widget_set_has_tooltip(view->area, TRUE);
   g_signal_connect(view->area, "query-tooltip", G_CALLBACK(on_tooltip), view);
   gtk_box_pack_start(GTK_BOX(box), view->area, TRUE, TRUE, 0);

@@ -37,8 +37,8 @@ static gboolean is_former(const SbDesignPage *page) {
   return g_strcmp0(now, page->hash) != 0;
 }
 
-static void draw(SbDesignPage *page, SbDesignPageArea area, cairo_t *cr, double width,
-                 double height) {
+static void draw_design(SbDesignPage *page, SbDesignPageArea area, cairo_t *cr, double width,
+                        double height) {
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbDesignAnswer *answer = sb_design_page_answer(page);
   const SbRect all = {0, 0, width, height};
@@ -53,15 +53,15 @@ static void draw(SbDesignPage *page, SbDesignPageArea area, cairo_t *cr, double 
 }
 
 static void draw_map(cairo_t *cr, double width, double height, void *data) {
-  draw(data, SB_DESIGN_AREA_MAP, cr, width, height);
+  draw_design(data, SB_DESIGN_AREA_MAP, cr, width, height);
 }
 
 static void draw_tornado(cairo_t *cr, double width, double height, void *data) {
-  draw(data, SB_DESIGN_AREA_TORNADO, cr, width, height);
+  draw_design(data, SB_DESIGN_AREA_TORNADO, cr, width, height);
 }
 
 static void draw_scatter(cairo_t *cr, double width, double height, void *data) {
-  draw(data, SB_DESIGN_AREA_SCATTER, cr, width, height);
+  draw_design(data, SB_DESIGN_AREA_SCATTER, cr, width, height);
 }
 
 void sb_design_page_say(SbDesignPage *page, const char *text) {
@@ -125,12 +125,12 @@ static void refresh_seen(SbDesignPage *page) {
 
 // The question ------------------------------------------------------------------------------------
 
-static void end_job(SbDesignPage *page) {
+static void end_design_job(SbDesignPage *page) {
   sb_later_cancel(&page->poll);
   g_clear_pointer(&page->job, sb_design_job_free);
 }
 
-static void on_poll(gpointer data) {
+static void on_design_poll(gpointer data) {
   SbDesignPage *page = data;
   static const char *const parts[] = {N_("Computing the map"), N_("Searching for the best"),
                                       N_("Tolerances"), N_("Drawing valves")};
@@ -183,11 +183,11 @@ static void show_marks(SbDesignPage *page, const SbDesignAnswer *answer) {
   gtk_widget_set_visible(page->marks, text->len > 0);
 }
 
-static void on_done(void *data) {
+static void on_design_done(void *data) {
   SbDesignPage *page = data;
   g_autofree char *why = NULL;
   SbDesignAnswer *answer = sb_design_job_take(page->job, &why);
-  end_job(page);
+  end_design_job(page);
   sb_design_answer_free(page->answer);
   page->answer = answer;
   g_autofree char *text =
@@ -203,7 +203,7 @@ static void on_done(void *data) {
 static void compute(SbDesignPage *page, gboolean search) {
   const SbDocument *document = sb_session_document(page->session);
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  end_job(page);
+  end_design_job(page);
   SbStudyFile *study = sb_design_ask_study(&page->ask, document, issues);
   if (study == NULL) {
     g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup("");
@@ -222,8 +222,8 @@ static void compute(SbDesignPage *page, gboolean search) {
   gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->pause), FALSE);
   page->refreshing = FALSE;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), 0);
-  page->job = sb_design_job_start(study, &page->ask, page->store, search, on_done, page);
-  sb_later_repeat(&page->poll, page->box, POLL_MS, on_poll, page);
+  page->job = sb_design_job_start(study, &page->ask, page->store, search, on_design_done, page);
+  sb_later_repeat(&page->poll, page->box, POLL_MS, on_design_poll, page);
   sb_design_page_refresh(page);
 }
 
@@ -231,7 +231,7 @@ void sb_design_page_asked(SbDesignPage *page) {
   if (page->ask.closed) {
     compute(page, FALSE);
   } else {
-    end_job(page);
+    end_design_job(page);
     sb_design_page_say(page, _("The inputs have changed: compute the map again."));
     sb_design_page_refresh(page);
   }
@@ -259,7 +259,7 @@ static void follow(SbDesignPage *page) {
         (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0)) {
       page->ask.closed = FALSE; // no closed form knows such a section
     }
-    end_job(page);
+    end_design_job(page);
     g_clear_pointer(&page->answer, sb_design_answer_free);
     page->look.picked = FALSE;
     sb_design_page_show_form(page);
@@ -305,7 +305,7 @@ static void on_pause(GtkToggleButton *button, SbDesignPage *page) {
   }
 }
 
-static void on_stop(GtkButton *button, SbDesignPage *page) {
+static void on_design_stop(GtkButton *button, SbDesignPage *page) {
   if (page->job != NULL) {
     sb_design_job_cancel(page->job);
   }
@@ -342,7 +342,7 @@ GtkWidget *sb_design_page_add_button(GtkBox *bar, const char *label, const char 
   return button;
 }
 
-static void add_toolbar(SbDesignPage *page, GtkBox *to) {
+static void add_design_toolbar(SbDesignPage *page, GtkBox *to) {
   GtkBox *bar = GTK_BOX(gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8));
   sb_style_class(GTK_WIDGET(bar), "sb-toolbar");
   sb_design_page_add_axes(page, bar);
@@ -355,7 +355,7 @@ static void add_toolbar(SbDesignPage *page, GtkBox *to) {
   g_signal_connect(page->pause, "toggled", G_CALLBACK(on_pause), page);
   gtk_box_pack_start(bar, page->pause, FALSE, FALSE, 0);
   page->stop = sb_design_page_add_button(bar, _("Cancel"), _("Stop and keep the results so far"),
-                                         G_CALLBACK(on_stop), page);
+                                         G_CALLBACK(on_design_stop), page);
   page->map_again =
       sb_design_page_add_button(bar, _("Compute map"), _("Uses the valve's own models: slower"),
                                 G_CALLBACK(on_map_again), page);
@@ -417,15 +417,15 @@ static GtkWidget *make_side(SbDesignPage *page) {
 
 // Life --------------------------------------------------------------------------------------------
 
-static void on_destroy(GtkWidget *widget, SbDesignPage *page) {
-  end_job(page);
+static void on_design_destroy(GtkWidget *widget, SbDesignPage *page) {
+  end_design_job(page);
   if (page->session != NULL) {
     g_signal_handlers_disconnect_by_data(page->session, page);
     g_clear_object(&page->session);
   }
 }
 
-static void page_free(gpointer data) {
+static void design_page_free(gpointer data) {
   SbDesignPage *page = data;
   sb_design_answer_free(page->answer);
   sb_store_close(page->store, NULL);
@@ -437,12 +437,12 @@ GtkWidget *sb_design_page_new(SbSession *session) {
   SbDesignPage *page = g_new0(SbDesignPage, 1);
   page->session = g_object_ref(session);
   page->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
-  g_object_set_data_full(G_OBJECT(page->box), "page", page, page_free);
+  g_object_set_data_full(G_OBJECT(page->box), "page", page, design_page_free);
   sb_design_ask_init(&page->ask, sb_session_document(session));
   page->chosen = page->ask.goal;
   GtkBox *main = GTK_BOX(gtk_box_new(GTK_ORIENTATION_VERTICAL, 0));
   page->side = make_side(page);
-  add_toolbar(page, main);
+  add_design_toolbar(page, main);
   GtkWidget *map = add_area(page, SB_DESIGN_AREA_MAP, main, draw_map, 320, _("Map of the design"));
   gtk_widget_set_can_focus(map, TRUE);
   gtk_widget_add_events(map, GDK_BUTTON_PRESS_MASK | GDK_KEY_PRESS_MASK);
@@ -457,7 +457,7 @@ GtkWidget *sb_design_page_new(SbSession *session) {
   gtk_widget_show_all(page->box);
   gtk_widget_set_visible(page->side_button, FALSE);
   g_signal_connect(page->box, "size-allocate", G_CALLBACK(on_allocate), page);
-  g_signal_connect(page->box, "destroy", G_CALLBACK(on_destroy), page);
+  g_signal_connect(page->box, "destroy", G_CALLBACK(on_design_destroy), page);
   g_signal_connect_swapped(page->box, "map", G_CALLBACK(follow), page);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(follow), page);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh_seen), page);

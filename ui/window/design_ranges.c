@@ -24,13 +24,13 @@ static void on_free(GtkToggleButton *button, Ranges *ranges) {
   }
 }
 
-static void on_robust(GtkToggleButton *button, Ranges *ranges) {
+static void on_range_robust(GtkToggleButton *button, Ranges *ranges) {
   if (!ranges->refreshing) {
     ranges->hooks.robust(ranges->hooks.data, gtk_toggle_button_get_active(button));
   }
 }
 
-static void on_end(GtkEntry *entry, Ranges *ranges) {
+static void on_range_end(GtkEntry *entry, Ranges *ranges) {
   for (size_t i = 0; i < ranges->count && !ranges->refreshing; i++) {
     const SbDesignRange *range = &ranges->range[i];
     double end[2];
@@ -56,8 +56,8 @@ static void on_end(GtkEntry *entry, Ranges *ranges) {
   }
 }
 
-static gboolean on_focus_out(GtkWidget *widget, GdkEventFocus *event, Ranges *ranges) {
-  on_end(GTK_ENTRY(widget), ranges);
+static gboolean on_range_focus_out(GtkWidget *widget, GdkEventFocus *event, Ranges *ranges) {
+  on_range_end(GTK_ENTRY(widget), ranges);
   return GDK_EVENT_PROPAGATE;
 }
 
@@ -84,14 +84,14 @@ static void make(Ranges *ranges, const SbDesignAsk *ask) {
       gtk_entry_set_alignment(GTK_ENTRY(entry), 1);
       g_autofree char *name = g_strdup_printf(end == 0 ? _("%s from") : _("%s to"), label);
       sb_style_name(entry, name, NULL);
-      g_signal_connect(entry, "activate", G_CALLBACK(on_end), ranges);
-      g_signal_connect(entry, "focus-out-event", G_CALLBACK(on_focus_out), ranges);
+      g_signal_connect(entry, "activate", G_CALLBACK(on_range_end), ranges);
+      g_signal_connect(entry, "focus-out-event", G_CALLBACK(on_range_focus_out), ranges);
       gtk_grid_attach(GTK_GRID(grid), entry, 1 + end, (int)i, 1, 1);
     }
   }
   ranges->robust = gtk_check_button_new_with_label(
       _("Meet all limits with a probability of 99.9 % over the tolerances"));
-  g_signal_connect(ranges->robust, "toggled", G_CALLBACK(on_robust), ranges);
+  g_signal_connect(ranges->robust, "toggled", G_CALLBACK(on_range_robust), ranges);
   gtk_grid_attach(GTK_GRID(grid), ranges->robust, 0, (int)ask->count, 3, 1);
   gtk_container_add(GTK_CONTAINER(ranges->popover), grid);
   gtk_widget_show_all(grid);

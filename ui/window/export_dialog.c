@@ -176,7 +176,7 @@ static void on_choose(GtkButton *button, SbExportDialog *dialog) {
   sb_export_dialog_later(dialog, choose);
 }
 
-static void on_destroy(GtkWidget *widget, SbExportDialog *dialog) {
+static void on_export_destroy(GtkWidget *widget, SbExportDialog *dialog) {
   g_clear_pointer(&dialog->job, sb_export_job_free);
   g_object_unref(dialog->session);
   g_free(dialog);
@@ -270,7 +270,7 @@ static void fill(SbExportDialog *dialog) {
 
 static void connect_parts(SbExportDialog *dialog) {
   g_signal_connect(dialog->dialog, "response", G_CALLBACK(sb_export_dialog_on_response), dialog);
-  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_destroy), dialog);
+  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_export_destroy), dialog);
   g_signal_connect(dialog->size, "changed", G_CALLBACK(on_size), dialog);
   g_signal_connect(dialog->view, "changed", G_CALLBACK(on_view), dialog);
   g_signal_connect(dialog->format, "changed", G_CALLBACK(on_format), dialog);

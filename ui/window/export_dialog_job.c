@@ -21,7 +21,7 @@ static void set_busy(SbExportDialog *dialog, gboolean busy) {
   gtk_button_set_label(GTK_BUTTON(dialog->cancel), busy ? _("Cancel") : _("Close"));
 }
 
-static void on_poll(gpointer data) {
+static void on_export_job_poll(gpointer data) {
   SbExportDialog *dialog = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(dialog->progress),
                                 sb_worker_progress(dialog->job));
@@ -31,7 +31,7 @@ static void on_poll(gpointer data) {
   gtk_progress_bar_set_show_text(GTK_PROGRESS_BAR(dialog->progress), left >= 0);
 }
 
-static void on_done(void *data) {
+static void on_export_job_done(void *data) {
   SbExportDialog *dialog = data;
   gboolean good = FALSE;
   sb_later_cancel(&dialog->poll);
@@ -155,8 +155,8 @@ static void start(gpointer data) {
   set_status(dialog, _("Exporting…"), "sb-pass");
   gtk_style_context_remove_class(gtk_widget_get_style_context(dialog->result), "sb-pass");
   set_busy(dialog, TRUE);
-  dialog->job = sb_export_job_start(handle, &request, on_done, dialog);
-  sb_later_repeat(&dialog->poll, dialog->dialog, 50, on_poll, dialog);
+  dialog->job = sb_export_job_start(handle, &request, on_export_job_done, dialog);
+  sb_later_repeat(&dialog->poll, dialog->dialog, 50, on_export_job_poll, dialog);
 }
 
 void sb_export_dialog_on_response(GtkDialog *widget, int response, SbExportDialog *dialog) {

@@ -17,7 +17,7 @@ static int level_of(int width) {
   return width >= WHOLE ? 2 : width >= NAMED ? 1 : 0;
 }
 
-static void fit(Room *room, int width) {
+static void fit_header(Room *room, int width) {
   const int level = room->level = level_of(width);
   for (int i = 0; i < 2; i++) {
     gtk_widget_set_visible(room->parts.words[i], level == 2);
@@ -29,19 +29,19 @@ static void fit(Room *room, int width) {
   sb_model_switch_set_short(room->parts.model_switch, level < 2);
 }
 
-static void on_later(gpointer data) {
+static void on_header_later(gpointer data) {
   Room *room = data;
-  fit(room, gtk_widget_get_allocated_width(room->window));
+  fit_header(room, gtk_widget_get_allocated_width(room->window));
 }
 
 // Not inside an allocation, where nothing may come or go.
-static void on_allocate(GtkWidget *widget, GdkRectangle *allocation, Room *room) {
+static void on_header_allocate(GtkWidget *widget, GdkRectangle *allocation, Room *room) {
   if (level_of(allocation->width) != room->level) {
-    sb_later_ensure(&room->later, room->window, 0, on_later, room);
+    sb_later_ensure(&room->later, room->window, 0, on_header_later, room);
   }
 }
 
-static void on_destroy(GtkWidget *widget, Room *room) {
+static void on_header_destroy(GtkWidget *widget, Room *room) {
   g_signal_handlers_disconnect_by_data(widget, room);
 }
 
@@ -50,8 +50,8 @@ void sb_header_room_attach(GtkWidget *window, const SbHeaderParts *parts, int wi
   room->window = window;
   room->parts = *parts;
   g_object_set_data_full(G_OBJECT(window), "header-room", room, g_free);
-  g_signal_connect(window, "size-allocate", G_CALLBACK(on_allocate), room);
-  g_signal_connect(window, "destroy", G_CALLBACK(on_destroy), room);
+  g_signal_connect(window, "size-allocate", G_CALLBACK(on_header_allocate), room);
+  g_signal_connect(window, "destroy", G_CALLBACK(on_header_destroy), room);
   // Before the window has a size: what is wide at first could not become narrow.
-  fit(room, width);
+  fit_header(room, width);
 }

@@ -135,7 +135,7 @@ void sb_import_on_read(void *data) {
   sb_draw_cache_change(dialog->cache, 0);
 }
 
-static void on_later(gpointer data) {
+static void on_import_later(gpointer data) {
   SbImportDialog *dialog = data;
   read_file(dialog);
 }
@@ -151,7 +151,7 @@ static void on_choice(GtkWidget *widget, SbImportDialog *dialog) {
     }
   }
   enum { TYPING = 300 };
-  sb_later_set(&dialog->later, dialog->dialog, TYPING, on_later, dialog);
+  sb_later_set(&dialog->later, dialog->dialog, TYPING, on_import_later, dialog);
 }
 
 static void on_as_found(GtkWidget *button, SbImportDialog *dialog) {
@@ -171,7 +171,7 @@ static void on_response(GtkDialog *widget, int response, SbImportDialog *dialog)
   gtk_widget_destroy(dialog->dialog);
 }
 
-static void on_destroy(GtkWidget *widget, SbImportDialog *dialog) {
+static void on_import_destroy(GtkWidget *widget, SbImportDialog *dialog) {
   sb_measure_job_free(dialog->measuring);
   sb_import_forget_measured(dialog);
   sb_read_job_free(dialog->reading);
@@ -235,7 +235,7 @@ static void open_dialog(GtkWindow *parent, SbSession *session, const SbImportKin
   gtk_dialog_set_default_response(GTK_DIALOG(dialog->dialog), GTK_RESPONSE_ACCEPT);
   gtk_window_set_default_size(GTK_WINDOW(dialog->dialog), kind->width, kind->height);
   g_signal_connect(dialog->dialog, "response", G_CALLBACK(on_response), dialog);
-  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_destroy), dialog);
+  g_signal_connect(dialog->dialog, "destroy", G_CALLBACK(on_import_destroy), dialog);
   GtkWidget *content = gtk_dialog_get_content_area(GTK_DIALOG(dialog->dialog));
   GtkWidget *columns = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 16);
   gtk_container_set_border_width(GTK_CONTAINER(columns), 12);

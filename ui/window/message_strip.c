@@ -60,12 +60,12 @@ static char *findings_text(const SbSummary *summary) {
   return text->len > 0 ? g_string_free(g_steal_pointer(&text), FALSE) : NULL;
 }
 
-static void refresh(Strip *strip);
+static void refresh_message(Strip *strip);
 
 static void on_soon(gpointer data) {
   Strip *strip = data;
   strip->waited = TRUE;
-  refresh(strip);
+  refresh_message(strip);
 }
 
 static void stop_waiting(Strip *strip) {
@@ -121,7 +121,7 @@ static void show_wrong(Strip *strip, SbParamId wrong) {
   show(strip, "warn", text, button);
 }
 
-static void refresh(Strip *strip) {
+static void refresh_message(Strip *strip) {
   SbSession *session = strip->session;
   const char *failure = sb_session_failure(session);
   int wrong = sb_session_first_error(session);
@@ -206,8 +206,8 @@ GtkWidget *sb_message_strip_new(SbSession *session) {
   gtk_widget_show_all(strip->revealer);
   g_signal_connect(strip->button, "clicked", G_CALLBACK(on_button), strip);
   sb_signals_end_with(strip->revealer, strip->session, strip);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), strip);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), strip);
-  refresh(strip);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_message), strip);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh_message), strip);
+  refresh_message(strip);
   return strip->revealer;
 }

@@ -28,7 +28,7 @@ static int scaled(int width, int look, int least, int most) {
 }
 
 // Not inside an allocation: the column leaves or joins the layout.
-static void on_later(gpointer data) {
+static void on_pane_later(gpointer data) {
   PanedLayout *layout = data;
   gboolean narrow = layout->width < THREE_COLUMNS;
   if (gtk_widget_get_visible(layout->charts) != narrow) {
@@ -38,12 +38,12 @@ static void on_later(gpointer data) {
 }
 
 // A new width: the widths that a hand has given, or the look's share of this window.
-static void on_allocate(GtkPaned *paned, GdkRectangle *allocation, PanedLayout *layout) {
+static void on_pane_allocate(GtkPaned *paned, GdkRectangle *allocation, PanedLayout *layout) {
   if (layout->width == allocation->width || allocation->width < 200) {
     return;
   }
   layout->width = allocation->width;
-  sb_later_ensure(&layout->later, layout->columns, 0, on_later, layout);
+  sb_later_ensure(&layout->later, layout->columns, 0, on_pane_later, layout);
   int left = sb_preferences_int("left-column", 0);
   int right = sb_preferences_int("right-column", 0);
   if (left < LEAST_LEFT || left > allocation->width / 2) {
@@ -74,7 +74,7 @@ void sb_paned_layout_attach(GtkPaned *columns, GtkPaned *views, GtkWidget *chart
                          G_BINDING_BIDIRECTIONAL | G_BINDING_SYNC_CREATE);
   gtk_widget_set_size_request(gtk_paned_get_child1(columns), LEAST_LEFT, -1);
   gtk_widget_set_size_request(gtk_paned_get_child2(views), LEAST_RIGHT, -1);
-  g_signal_connect(columns, "size-allocate", G_CALLBACK(on_allocate), self);
+  g_signal_connect(columns, "size-allocate", G_CALLBACK(on_pane_allocate), self);
   g_signal_connect(columns, "button-release-event", G_CALLBACK(on_release), self);
   g_signal_connect(views, "button-release-event", G_CALLBACK(on_release), self);
 }

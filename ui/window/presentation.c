@@ -184,7 +184,7 @@ static double draw_note(cairo_t *cr, const char *text, double x, double y, doubl
   return height;
 }
 
-static void draw(cairo_t *cr, double width, double height, void *user) {
+static void draw_presentation(cairo_t *cr, double width, double height, void *user) {
   Presentation *self = user;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_PANEL);
   const SbChartData data = shown(self);
@@ -271,7 +271,7 @@ static void step_design(Presentation *self, int step) {
   on_change(self);
 }
 
-static gboolean on_key(GtkWidget *widget, GdkEventKey *event, Presentation *self) {
+static gboolean on_presentation_key(GtkWidget *widget, GdkEventKey *event, Presentation *self) {
   if ((event->state & gtk_accelerator_get_default_mod_mask()) != 0) {
     return GDK_EVENT_PROPAGATE;
   }
@@ -324,13 +324,13 @@ static void set_covers(Presentation *self, gboolean covers) {
   self->covers = covers;
 }
 
-static void on_size(Presentation *self, const GdkRectangle *size) {
+static void on_presentation_size(Presentation *self, const GdkRectangle *size) {
   set_covers(self, size->width >= self->screen.width && size->height >= self->screen.height);
 }
 
 // Life --------------------------------------------------------------------------------------------
 
-static void on_destroy(GtkWidget *widget, Presentation *self) {
+static void on_presentation_destroy(GtkWidget *widget, Presentation *self) {
   set_covers(self, FALSE);
   g_signal_handlers_disconnect_by_data(self->session, self);
   gdk_gl_context_clear_current();
@@ -375,11 +375,11 @@ void sb_presentation_open(GtkWindow *parent, SbSession *session) {
   sb_style_window(self->window);
   self->area = gtk_drawing_area_new();
   atk_object_set_role(gtk_widget_get_accessible(self->area), ATK_ROLE_IMAGE);
-  self->cache = sb_draw_cache_attach(self->area, draw, self);
+  self->cache = sb_draw_cache_attach(self->area, draw_presentation, self);
   gtk_container_add(GTK_CONTAINER(window), self->area);
-  g_signal_connect(window, "key-press-event", G_CALLBACK(on_key), self);
-  g_signal_connect(window, "destroy", G_CALLBACK(on_destroy), self);
-  g_signal_connect_swapped(window, "size-allocate", G_CALLBACK(on_size), self);
+  g_signal_connect(window, "key-press-event", G_CALLBACK(on_presentation_key), self);
+  g_signal_connect(window, "destroy", G_CALLBACK(on_presentation_destroy), self);
+  g_signal_connect_swapped(window, "size-allocate", G_CALLBACK(on_presentation_size), self);
   g_signal_connect_swapped(session, "run-changed", G_CALLBACK(on_change), self);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(on_change), self);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(on_change), self);

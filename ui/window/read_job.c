@@ -84,7 +84,7 @@ struct SbReadJob {
   GError *error; // NULL: it is read
 };
 
-static void work(void *owner) {
+static void work_read_job(void *owner) {
   SbReadJob *job = owner;
   g_auto(GStrv) lines = g_strsplit(job->choices, "\n", -1);
   bool good = true;
@@ -104,7 +104,7 @@ SbReadJob *sb_read_job_start(const SbReadKind *kind, const char *path, const cha
   job->choices = g_strdup(choices);
   job->object = g_malloc0(kind->size);
   kind->init(job->object);
-  sb_worker_start(&job->worker, "import", work, job, done, user);
+  sb_worker_start(&job->worker, "import", work_read_job, job, done, user);
   return job;
 }
 

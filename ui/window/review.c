@@ -23,7 +23,7 @@ static void set_enabled(Review *review, const char *name, gboolean enabled) {
   g_simple_action_set_enabled(G_SIMPLE_ACTION(action), enabled);
 }
 
-static void refresh(Review *review) {
+static void refresh_review(Review *review) {
   const SbDocument *document = sb_session_document(review->session);
   set_enabled(review, "report", review->job == NULL && sb_session_may_keep(review->session));
   set_enabled(review, "cancel-report", review->job != NULL);
@@ -42,10 +42,10 @@ static void on_written(void *data) {
   if (!good) {
     g_clear_pointer(&review->written, g_free);
   }
-  refresh(review);
+  refresh_review(review);
   sb_toast_show(review->window, text, _("Open"), good ? "win.show-report" : NULL, !good);
   g_clear_pointer(&review->job, sb_export_job_free);
-  refresh(review);
+  refresh_review(review);
 }
 
 // Takes over `path`.
@@ -73,11 +73,11 @@ static void write_report(Review *review, char *path) {
   g_free(review->written);
   review->written = g_strdup(path);
   review->job = sb_export_job_start(handle, &request, on_written, review);
-  refresh(review);
+  refresh_review(review);
   sb_toast_show(review->window, _("Writing the report…"), _("Cancel"), "win.cancel-report", TRUE);
 }
 
-static void on_name(GtkDialog *dialog, int response, Review *review) {
+static void on_review_name(GtkDialog *dialog, int response, Review *review) {
   char *chosen = response == GTK_RESPONSE_ACCEPT
                      ? gtk_file_chooser_get_filename(GTK_FILE_CHOOSER(dialog))
                      : NULL;
@@ -112,7 +112,7 @@ static void on_report(GSimpleAction *action, GVariant *parameter, gpointer data)
   g_autofree char *folder = sb_preferences_string("export-folder", g_get_home_dir());
   gtk_file_chooser_set_current_folder(chooser, folder);
   gtk_file_chooser_set_current_name(chooser, name);
-  g_signal_connect(dialog, "response", G_CALLBACK(on_name), review);
+  g_signal_connect(dialog, "response", G_CALLBACK(on_review_name), review);
   gtk_window_present(GTK_WINDOW(dialog));
 }
 
@@ -193,7 +193,7 @@ static void review_free(gpointer data) {
   g_free(review);
 }
 
-static void on_destroy(GtkWidget *widget, Review *review) {
+static void on_review_destroy(GtkWidget *widget, Review *review) {
   g_signal_handlers_disconnect_by_data(review->session, review);
   g_clear_pointer(&review->job, sb_export_job_free);
 }
@@ -214,8 +214,8 @@ void sb_review_attach(GtkApplicationWindow *window, SbSession *session) {
   };
   g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), review);
   g_signal_connect(window, "window-state-event", G_CALLBACK(on_window_state), review);
-  g_signal_connect(window, "destroy", G_CALLBACK(on_destroy), review);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), review);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), review);
-  refresh(review);
+  g_signal_connect(window, "destroy", G_CALLBACK(on_review_destroy), review);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_review), review);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh_review), review);
+  refresh_review(review);
 }

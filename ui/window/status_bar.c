@@ -23,7 +23,7 @@ static void set_text(GtkWidget *label, const char *text) {
   }
 }
 
-static void refresh_models(Bar *bar) {
+static void refresh_model_names(Bar *bar) {
   const SbRun *run = sb_session_run(bar->session);
   const SbModel *model = run != NULL ? sb_run_model(run) : sb_session_model(bar->session);
   if (model == NULL) {
@@ -46,7 +46,7 @@ static void refresh_models(Bar *bar) {
 }
 
 // An icon and a text in Pango markup.
-static void add_row(Bar *bar, const char *icon_name, const char *style, const char *text) {
+static void add_status_row(Bar *bar, const char *icon_name, const char *style, const char *text) {
   GtkWidget *box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   GtkWidget *icon = gtk_image_new_from_icon_name(icon_name, GTK_ICON_SIZE_MENU);
   gtk_widget_set_valign(icon, GTK_ALIGN_START);
@@ -69,7 +69,7 @@ static void add_warning(Bar *bar, const SbWarning *warning) {
           ? g_markup_printf_escaped("%s\n<small>%s, %s</small>", warning->text, warning->code,
                                     sb_input_key(warning->input))
           : g_markup_printf_escaped("%s\n<small>%s</small>", warning->text, warning->code);
-  add_row(bar, "dialog-warning-symbolic", "sb-warn", text);
+  add_status_row(bar, "dialog-warning-symbolic", "sb-warn", text);
 }
 
 static void refresh_warnings(Bar *bar, const SbSummary *summary) {
@@ -93,7 +93,7 @@ static void refresh_warnings(Bar *bar, const SbSummary *summary) {
   const GPtrArray *notes = sb_document_notes(sb_session_document(bar->session));
   for (guint i = 0; i < notes->len; i++) {
     g_autofree char *text = g_markup_escape_text(notes->pdata[i], -1);
-    add_row(bar, "dialog-information-symbolic", "sb-quiet", text);
+    add_status_row(bar, "dialog-information-symbolic", "sb-quiet", text);
   }
   gtk_widget_show_all(bar->list);
   g_autofree char *text =
@@ -162,7 +162,7 @@ static void refresh_frames(Bar *bar) {
   refresh_where(bar);
 }
 
-static void on_later(gpointer data) {
+static void on_status_later(gpointer data) {
   Bar *bar = data;
   refresh_frames(bar);
 }
@@ -172,13 +172,13 @@ static void refresh_soon(Bar *bar) {
   if (!sb_session_wants_ticks(bar->session)) {
     refresh_frames(bar);
   } else {
-    sb_later_ensure(&bar->later, bar->where, 100, on_later, bar);
+    sb_later_ensure(&bar->later, bar->where, 100, on_status_later, bar);
   }
 }
 
-static void refresh(Bar *bar) {
+static void refresh_status(Bar *bar) {
   const SbSummary *summary = sb_session_summary(bar->session);
-  refresh_models(bar);
+  refresh_model_names(bar);
   refresh_frames(bar);
   refresh_warnings(bar, summary);
   char errors[512] = "–";
@@ -236,10 +236,10 @@ GtkWidget *sb_status_bar_new(SbSession *session) {
   gtk_widget_show_all(widget);
 
   sb_signals_end_with(widget, bar->session, bar);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), bar);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh_status), bar);
   g_signal_connect_swapped(session, "frames-changed", G_CALLBACK(refresh_soon), bar);
   g_signal_connect_swapped(session, "playhead-changed", G_CALLBACK(refresh_soon), bar);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_models), bar);
-  refresh(bar);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_model_names), bar);
+  refresh_status(bar);
   return widget;
 }

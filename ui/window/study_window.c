@@ -55,7 +55,7 @@ static SbStudyPage make_page(Studies *studies, gboolean stale) {
                        .dark = sb_style_is_dark()};
 }
 
-static void draw(cairo_t *cr, double width, double height, void *data) {
+static void draw_study(cairo_t *cr, double width, double height, void *data) {
   Studies *studies = data;
   SbRect rect = {0, 0, width, height};
   if (studies->study != NULL) {
@@ -68,7 +68,7 @@ static void draw(cairo_t *cr, double width, double height, void *data) {
 
 // State to widgets -------------------------------------------------------------------------------
 
-static void set_status(Studies *studies, const char *text, const char *style) {
+static void set_study_status(Studies *studies, const char *text, const char *style) {
   GtkStyleContext *context = gtk_widget_get_style_context(studies->message);
   gtk_style_context_remove_class(context, "sb-warn");
   gtk_style_context_remove_class(context, "sb-error");
@@ -79,7 +79,7 @@ static void set_status(Studies *studies, const char *text, const char *style) {
   gtk_label_set_text(GTK_LABEL(studies->message), text);
 }
 
-static void refresh(Studies *studies) {
+static void refresh_study(Studies *studies) {
   gboolean busy = studies->job != NULL;
   gboolean possible = sb_session_model(studies->session) != NULL;
   gtk_widget_set_visible(studies->stop, busy);
@@ -104,30 +104,32 @@ static void refresh(Studies *studies) {
 static void judge(Studies *studies) {
   if (studies->job == NULL && studies->study != NULL) {
     if (sb_session_model(studies->session) == NULL) {
-      set_status(studies,
-                 _("The values are inconsistent now; the study shown belongs to earlier values."),
-                 "sb-warn");
+      set_study_status(
+          studies, _("The values are inconsistent now; the study shown belongs to earlier values."),
+          "sb-warn");
     } else if (is_stale(studies)) {
-      set_status(studies, _("Values have changed: the study shown is of earlier ones."), "sb-warn");
+      set_study_status(studies, _("Values have changed: the study shown is of earlier ones."),
+                       "sb-warn");
     } else if (!studies->study->complete) {
-      set_status(studies, _("A solver did not converge at every point; such points are omitted."),
-                 "sb-error");
+      set_study_status(studies,
+                       _("A solver did not converge at every point; such points are omitted."),
+                       "sb-error");
     } else {
-      set_status(studies, "", NULL);
+      set_study_status(studies, "", NULL);
     }
   }
-  refresh(studies);
+  refresh_study(studies);
 }
 
 // The job ----------------------------------------------------------------------------------------
 
-static void on_poll(gpointer data) {
+static void on_study_poll(gpointer data) {
   Studies *studies = data;
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress),
                                 sb_worker_progress(studies->job));
 }
 
-static void end_job(Studies *studies) {
+static void end_study_job(Studies *studies) {
   sb_later_cancel(&studies->poll);
   g_clear_pointer(&studies->job, sb_study_job_free);
 }
@@ -139,12 +141,12 @@ static void follow_kind(Studies *studies) {
   gtk_entry_set_text(GTK_ENTRY(studies->path), path);
 }
 
-static void on_done(void *data) {
+static void on_study_done(void *data) {
   Studies *studies = data;
   const char *why = NULL;
   SbStudy *study = sb_study_job_take(studies->job, &why);
   g_autofree char *text = g_strdup_printf(_("No study: %s."), why != NULL ? why : "");
-  end_job(studies);
+  end_study_job(studies);
   if (study != NULL) {
     g_free(studies->study);
     g_free(studies->hash);
@@ -156,17 +158,17 @@ static void on_done(void *data) {
     studies->scene = g_steal_pointer(&studies->asked_scene);
     judge(studies);
   } else {
-    refresh(studies);
-    set_status(studies, text, "sb-warn");
+    refresh_study(studies);
+    set_study_status(studies, text, "sb-warn");
   }
 }
 
-static void compute(Studies *studies) {
+static void compute_study(Studies *studies) {
   const SbModel *model = sb_session_model(studies->session);
-  end_job(studies);
+  end_study_job(studies);
   if (model == NULL) {
-    set_status(studies, _("The values are inconsistent: correct them first."), "sb-error");
-    refresh(studies);
+    set_study_status(studies, _("The values are inconsistent: correct them first."), "sb-error");
+    refresh_study(studies);
     return;
   }
   const SbDocument *document = sb_session_document(studies->session);
@@ -182,31 +184,31 @@ static void compute(Studies *studies) {
           ? g_strdup_printf(_("Computing: %s. The picture is of the study before."),
                             sb_translation(sb_study_title(studies->asked)))
           : g_strdup_printf(_("Computing: %s"), sb_translation(sb_study_title(studies->asked)));
-  set_status(studies, text, NULL);
+  set_study_status(studies, text, NULL);
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(studies->progress), 0);
-  studies->job = sb_study_job_start(studies->asked, model, on_done, studies);
-  sb_later_repeat(&studies->poll, studies->window, 50, on_poll, studies);
-  refresh(studies);
+  studies->job = sb_study_job_start(studies->asked, model, on_study_done, studies);
+  sb_later_repeat(&studies->poll, studies->window, 50, on_study_poll, studies);
+  refresh_study(studies);
 }
 
 // Actions ----------------------------------------------------------------------------------------
 
 static void on_kind(GtkComboBox *combo, Studies *studies) {
   follow_kind(studies);
-  compute(studies);
+  compute_study(studies);
 }
 
 static void on_again(GtkButton *button, Studies *studies) {
-  compute(studies);
+  compute_study(studies);
 }
 
-static void on_stop(GtkButton *button, Studies *studies) {
+static void on_study_stop(GtkButton *button, Studies *studies) {
   if (studies->job != NULL) {
     sb_worker_cancel(studies->job);
   }
 }
 
-static gboolean on_key(GtkWidget *widget, GdkEventKey *event, Studies *studies) {
+static gboolean on_study_key(GtkWidget *widget, GdkEventKey *event, Studies *studies) {
   gboolean control = (event->state & gtk_accelerator_get_default_mod_mask()) == GDK_CONTROL_MASK;
   if (event->keyval == GDK_KEY_Escape || (control && event->keyval == GDK_KEY_w)) {
     gtk_window_close(GTK_WINDOW(widget));
@@ -227,7 +229,7 @@ static void export_page(gpointer data) {
     return;
   }
   if (!g_path_is_absolute(path)) {
-    set_status(studies, _("The file needs its folder: an absolute path."), "sb-error");
+    set_study_status(studies, _("The file needs its folder: an absolute path."), "sb-error");
     return;
   }
   if (!sb_export_may_replace(GTK_WINDOW(studies->window), path)) {
@@ -241,10 +243,10 @@ static void export_page(gpointer data) {
   g_autofree char *text = NULL;
   if (sb_study_still(studies->study, &page, path, &error)) {
     text = g_strdup_printf(_("%s is written."), name);
-    set_status(studies, text, "sb-pass");
+    set_study_status(studies, text, "sb-pass");
   } else {
     text = g_strdup_printf(_("Nothing was written: %s."), error->message);
-    set_status(studies, text, "sb-error");
+    set_study_status(studies, text, "sb-error");
   }
 }
 
@@ -255,8 +257,8 @@ static void on_export(GtkButton *button, Studies *studies) {
 
 // Life -------------------------------------------------------------------------------------------
 
-static void on_destroy(GtkWidget *widget, Studies *studies) {
-  end_job(studies);
+static void on_study_destroy(GtkWidget *widget, Studies *studies) {
+  end_study_job(studies);
   g_signal_handlers_disconnect_by_data(studies->session, studies);
   g_object_unref(studies->session);
   g_free(studies->asked_hash);
@@ -310,16 +312,16 @@ void sb_study_window_open(GtkWindow *parent, SbSession *session) {
   gtk_widget_set_can_focus(studies->area, TRUE);
   sb_style_name(studies->area, _("Study"), NULL);
   atk_object_set_role(gtk_widget_get_accessible(studies->area), ATK_ROLE_CHART);
-  studies->cache = sb_draw_cache_attach(studies->area, draw, studies);
+  studies->cache = sb_draw_cache_attach(studies->area, draw_study, studies);
   follow_kind(studies);
   g_signal_connect(studies->kind, "changed", G_CALLBACK(on_kind), studies);
   g_signal_connect(studies->again, "clicked", G_CALLBACK(on_again), studies);
-  g_signal_connect(studies->stop, "clicked", G_CALLBACK(on_stop), studies);
+  g_signal_connect(studies->stop, "clicked", G_CALLBACK(on_study_stop), studies);
   g_signal_connect(studies->copy, "clicked", G_CALLBACK(on_copy), studies);
   g_signal_connect(studies->export, "clicked", G_CALLBACK(on_export), studies);
-  g_signal_connect(studies->window, "key-press-event", G_CALLBACK(on_key), studies);
-  g_signal_connect(studies->window, "destroy", G_CALLBACK(on_destroy), studies);
+  g_signal_connect(studies->window, "key-press-event", G_CALLBACK(on_study_key), studies);
+  g_signal_connect(studies->window, "destroy", G_CALLBACK(on_study_destroy), studies);
   g_signal_connect_swapped(session, "params-changed", G_CALLBACK(judge), studies);
-  compute(studies);
+  compute_study(studies);
   gtk_window_present(GTK_WINDOW(studies->window));
 }

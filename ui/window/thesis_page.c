@@ -20,7 +20,7 @@ typedef struct {
   SbThesisItem *shown; // NULL: none yet
   GCancellable *job;   // of what is computed; NULL: nothing
   gboolean begun;
-} Page;
+} ThesisPage;
 
 // What the thread is given and gives back.
 typedef struct {
@@ -41,7 +41,7 @@ static bool is_cancelled(void *data) {
   return g_cancellable_is_cancelled(data);
 }
 
-static void compute(GTask *task, gpointer source, gpointer data, GCancellable *cancellable) {
+static void compute_thesis(GTask *task, gpointer source, gpointer data, GCancellable *cancellable) {
   Asked *asked = data;
   const int threads = MAX((int)g_get_num_processors() - 1, 1);
   SbThesisItem *item =
@@ -51,8 +51,8 @@ static void compute(GTask *task, gpointer source, gpointer data, GCancellable *c
 
 // State to widgets -------------------------------------------------------------------------------
 
-static void draw(cairo_t *cr, double width, double height, void *data) {
-  const Page *page = data;
+static void draw_thesis(cairo_t *cr, double width, double height, void *data) {
+  const ThesisPage *page = data;
   const SbTheme *theme = sb_style_ground(cr, SB_ROLE_BACKGROUND);
   if (page->shown != NULL && page->shown->chart != NULL) {
     sb_study_draw(cr, (SbRect){12, 12, width - 24, height - 24}, theme, page->shown->chart);
@@ -79,7 +79,7 @@ static char *curves_text(const SbStudy *chart) {
   return g_string_free(out, FALSE);
 }
 
-static void show(Page *page, const char *message) {
+static void show_thesis(ThesisPage *page, const char *message) {
   g_autofree char *table = page->shown != NULL ? sb_thesis_table(page->shown) : g_strdup("");
   gtk_label_set_text(GTK_LABEL(page->message), message);
   gtk_label_set_text(GTK_LABEL(page->text), table);
@@ -93,7 +93,7 @@ static void show(Page *page, const char *message) {
 }
 
 static void on_computed(GObject *source, GAsyncResult *result, gpointer data) {
-  Page *page = data;
+  ThesisPage *page = data;
   const Asked *asked = g_task_get_task_data(G_TASK(result));
   SbThesisItem *item = g_task_propagate_pointer(G_TASK(result), NULL);
   if (page->job != asked->job) {
@@ -109,24 +109,24 @@ static void on_computed(GObject *source, GAsyncResult *result, gpointer data) {
     g_free(message);
     message = sb_issue_line(asked->issues->pdata[0]);
   }
-  show(page, message);
+  show_thesis(page, message);
 }
 
 // Acts --------------------------------------------------------------------------------------------
 
-static void end_job(Page *page) {
+static void end_thesis_job(ThesisPage *page) {
   if (page->job != NULL) {
     g_cancellable_cancel(page->job);
     g_clear_object(&page->job);
   }
 }
 
-static void start(Page *page) {
+static void start_thesis(ThesisPage *page) {
   const int at = gtk_combo_box_get_active(GTK_COMBO_BOX(page->item));
   if (!page->begun || at < 0 || page->items == NULL) {
     return;
   }
-  end_job(page);
+  end_thesis_job(page);
   page->job = g_cancellable_new();
   Asked *asked = g_new0(Asked, 1);
   asked->name = g_strdup(page->items[2 * at]);
@@ -134,37 +134,37 @@ static void start(Page *page) {
   asked->issues = sb_issues_new();
   GTask *task = g_task_new(page->box, NULL, on_computed, page); // holds the box, and so the page
   g_task_set_task_data(task, asked, asked_free);
-  g_task_run_in_thread(task, compute);
+  g_task_run_in_thread(task, compute_thesis);
   g_object_unref(task);
-  show(page, _("Computing…"));
+  show_thesis(page, _("Computing…"));
 }
 
-static void on_map(GtkWidget *widget, Page *page) {
+static void on_map(GtkWidget *widget, ThesisPage *page) {
   if (!page->begun) {
     page->begun = TRUE;
-    start(page);
+    start_thesis(page);
   }
 }
 
-static void on_stop(GtkWidget *button, Page *page) {
-  end_job(page);
-  show(page, "");
+static void on_thesis_stop(GtkWidget *button, ThesisPage *page) {
+  end_thesis_job(page);
+  show_thesis(page, "");
 }
 
 // Life --------------------------------------------------------------------------------------------
 
-static void on_destroy(GtkWidget *widget, Page *page) {
-  end_job(page);
+static void on_thesis_destroy(GtkWidget *widget, ThesisPage *page) {
+  end_thesis_job(page);
 }
 
-static void page_free(gpointer data) {
-  Page *page = data;
+static void thesis_page_free(gpointer data) {
+  ThesisPage *page = data;
   sb_thesis_item_free(page->shown);
   g_strfreev(page->items);
   g_free(page);
 }
 
-static void add_toolbar(Page *page) {
+static void add_thesis_toolbar(ThesisPage *page) {
   GtkWidget *bar = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 8);
   sb_style_class(bar, "sb-toolbar");
   g_autoptr(GPtrArray) titles = g_ptr_array_new();
@@ -180,24 +180,24 @@ static void add_toolbar(Page *page) {
     g_object_set(cell->data, "ellipsize", PANGO_ELLIPSIZE_END, "width-chars", 30, NULL);
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(page->item), 0);
-  g_signal_connect_swapped(page->item, "changed", G_CALLBACK(start), page);
+  g_signal_connect_swapped(page->item, "changed", G_CALLBACK(start_thesis), page);
   page->message = sb_style_label(NULL, "sb-warn", 0);
   gtk_label_set_ellipsize(GTK_LABEL(page->message), PANGO_ELLIPSIZE_END);
   gtk_box_pack_start(GTK_BOX(bar), page->message, TRUE, TRUE, 0);
   page->stop = gtk_button_new_with_label(_("Cancel"));
   gtk_widget_set_tooltip_text(page->stop, _("Stop computing; the results so far remain"));
-  g_signal_connect(page->stop, "clicked", G_CALLBACK(on_stop), page);
+  g_signal_connect(page->stop, "clicked", G_CALLBACK(on_thesis_stop), page);
   gtk_box_pack_end(GTK_BOX(bar), page->stop, FALSE, FALSE, 0);
   gtk_box_pack_start(GTK_BOX(page->box), bar, FALSE, FALSE, 0);
   gtk_widget_show_all(bar);
 }
 
-static void add_result(Page *page) {
+static void add_result(ThesisPage *page) {
   page->area = gtk_drawing_area_new();
   sb_style_class(page->area, "sb-canvas");
   gtk_widget_set_size_request(page->area, 480, 260);
   atk_object_set_role(gtk_widget_get_accessible(page->area), ATK_ROLE_CHART);
-  page->cache = sb_draw_cache_attach(page->area, draw, page);
+  page->cache = sb_draw_cache_attach(page->area, draw_thesis, page);
   gtk_box_pack_start(GTK_BOX(page->box), page->area, TRUE, TRUE, 0);
   GtkWidget *scrolled = gtk_scrolled_window_new(NULL, NULL);
   page->text = gtk_label_new(NULL);
@@ -212,15 +212,15 @@ static void add_result(Page *page) {
 }
 
 GtkWidget *sb_thesis_page_new(void) {
-  Page *page = g_new0(Page, 1);
+  ThesisPage *page = g_new0(ThesisPage, 1);
   page->box = gtk_box_new(GTK_ORIENTATION_VERTICAL, 0);
   page->items = sb_thesis_items();
-  g_object_set_data_full(G_OBJECT(page->box), "page", page, page_free);
-  add_toolbar(page);
+  g_object_set_data_full(G_OBJECT(page->box), "page", page, thesis_page_free);
+  add_thesis_toolbar(page);
   add_result(page);
-  g_signal_connect(page->box, "destroy", G_CALLBACK(on_destroy), page);
+  g_signal_connect(page->box, "destroy", G_CALLBACK(on_thesis_destroy), page);
   g_signal_connect(page->box, "map", G_CALLBACK(on_map), page);
   gtk_widget_show(page->box);
-  show(page, "");
+  show_thesis(page, "");
   return page->box;
 }

@@ -24,9 +24,9 @@ typedef struct {
   bool fails[SB_VERDICT_COUNT];
   int level, width;
   SbLater later; // fits it to a width
-} Strip;
+} VerdictStrip;
 
-static void fit(Strip *strip, int level) {
+static void fit_verdict(VerdictStrip *strip, int level) {
   strip->level = level;
   for (int i = 0; i < SB_VERDICT_COUNT; i++) {
     gtk_widget_set_visible(strip->figure[i], level == ALL || (strip->fails[i] && level < WORDS));
@@ -35,10 +35,10 @@ static void fit(Strip *strip, int level) {
 }
 
 // The richest that fits the width.
-static void on_later(gpointer data) {
-  Strip *strip = data;
+static void on_verdict_later(gpointer data) {
+  VerdictStrip *strip = data;
   for (int level = ALL; level < LEVELS; level++) {
-    fit(strip, level);
+    fit_verdict(strip, level);
     int natural = 0;
     gtk_widget_get_preferred_width(strip->box, NULL, &natural);
     if (natural <= strip->width) {
@@ -47,20 +47,21 @@ static void on_later(gpointer data) {
   }
 }
 
-static void refit(Strip *strip) {
+static void refit(VerdictStrip *strip) {
   if (strip->width > 0) {
-    sb_later_ensure(&strip->later, strip->box, 0, on_later, strip);
+    sb_later_ensure(&strip->later, strip->box, 0, on_verdict_later, strip);
   }
 }
 
-static void on_allocate(GtkWidget *scroller, GdkRectangle *allocation, Strip *strip) {
+static void on_verdict_allocate(GtkWidget *scroller, GdkRectangle *allocation,
+                                VerdictStrip *strip) {
   if (allocation->width != strip->width) {
     strip->width = allocation->width;
     refit(strip);
   }
 }
 
-static void refresh(Strip *strip) {
+static void refresh_verdict(VerdictStrip *strip) {
   const SbSummary *predicted = sb_session_predicted(strip->session);
   const SbSummary *summary = sb_verdict_summary(strip->session);
   static const char *const signs[] = {
@@ -102,14 +103,14 @@ static void refresh(Strip *strip) {
 }
 
 // The instant that the answer is of, where the run has it.
-static void on_toggled(GtkToggleButton *button, Strip *strip) {
+static void on_verdict_toggled(GtkToggleButton *button, VerdictStrip *strip) {
   int kind = GPOINTER_TO_INT(g_object_get_data(G_OBJECT(button), "kind"));
   if (gtk_toggle_button_get_active(button)) {
     sb_verdict_show(strip->session, kind);
   }
 }
 
-static GtkWidget *add_label(GtkWidget *box, const char *text, const char *name) {
+static GtkWidget *add_verdict_label(GtkWidget *box, const char *text, const char *name) {
   GtkWidget *label = sb_style_label(text, name, 0);
   gtk_widget_set_no_show_all(label, TRUE);
   gtk_widget_show(label);
@@ -117,13 +118,13 @@ static GtkWidget *add_label(GtkWidget *box, const char *text, const char *name) 
   return label;
 }
 
-static GtkWidget *make_button(Strip *strip, int kind) {
+static GtkWidget *make_button(VerdictStrip *strip, int kind) {
   GtkWidget *button = strip->button[kind] = sb_style_menu_button();
   g_object_set_data(G_OBJECT(button), "kind", GINT_TO_POINTER(kind));
   GtkWidget *inside = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 7);
-  strip->sign[kind] = add_label(inside, "", "sb-sign");
-  strip->word[kind] = add_label(inside, sb_verdict_word(kind), "sb-word");
-  strip->figure[kind] = add_label(inside, "", "sb-figure");
+  strip->sign[kind] = add_verdict_label(inside, "", "sb-sign");
+  strip->word[kind] = add_verdict_label(inside, sb_verdict_word(kind), "sb-word");
+  strip->figure[kind] = add_verdict_label(inside, "", "sb-figure");
   gtk_container_add(GTK_CONTAINER(button), inside);
   GtkWidget *popover = gtk_popover_new(button);
   GtkWidget *why = strip->why[kind] = sb_style_label("", "sb-why", 0);
@@ -132,23 +133,23 @@ static GtkWidget *make_button(Strip *strip, int kind) {
   gtk_widget_show(why);
   gtk_container_add(GTK_CONTAINER(popover), why);
   gtk_menu_button_set_popover(GTK_MENU_BUTTON(button), popover);
-  g_signal_connect(button, "toggled", G_CALLBACK(on_toggled), strip);
+  g_signal_connect(button, "toggled", G_CALLBACK(on_verdict_toggled), strip);
   return button;
 }
 
-static void on_destroy(GtkWidget *widget, Strip *strip) {
+static void on_verdict_destroy(GtkWidget *widget, VerdictStrip *strip) {
   g_signal_handlers_disconnect_by_data(strip->session, strip);
   strip->width = 0; // nothing more is fitted
 }
 
 GtkWidget *sb_verdict_strip_new(SbSession *session) {
-  Strip *strip = g_new0(Strip, 1);
+  VerdictStrip *strip = g_new0(VerdictStrip, 1);
   strip->session = session;
   strip->box = gtk_box_new(GTK_ORIENTATION_HORIZONTAL, 4);
   for (int i = 0; i < SB_VERDICT_COUNT; i++) {
     gtk_box_pack_start(GTK_BOX(strip->box), make_button(strip, i), FALSE, FALSE, 0);
   }
-  strip->predicted = add_label(strip->box, _("predicted"), "sb-note");
+  strip->predicted = add_verdict_label(strip->box, _("predicted"), "sb-note");
   gtk_widget_hide(strip->predicted);
   // It never decides how narrow the window can be.
   GtkWidget *scroller = strip->scroller = gtk_scrolled_window_new(NULL, NULL);
@@ -158,12 +159,12 @@ GtkWidget *sb_verdict_strip_new(SbSession *session) {
   gtk_container_add(GTK_CONTAINER(scroller), strip->box);
   sb_style_name(scroller, _("Verdict"), NULL);
   g_object_set_data_full(G_OBJECT(scroller), "strip", strip, g_free);
-  g_signal_connect(scroller, "size-allocate", G_CALLBACK(on_allocate), strip);
-  g_signal_connect(scroller, "destroy", G_CALLBACK(on_destroy), strip);
-  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh), strip);
-  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh), strip);
+  g_signal_connect(scroller, "size-allocate", G_CALLBACK(on_verdict_allocate), strip);
+  g_signal_connect(scroller, "destroy", G_CALLBACK(on_verdict_destroy), strip);
+  g_signal_connect_swapped(session, "run-changed", G_CALLBACK(refresh_verdict), strip);
+  g_signal_connect_swapped(session, "params-changed", G_CALLBACK(refresh_verdict), strip);
   gtk_widget_show_all(scroller);
   gtk_widget_set_no_show_all(scroller, TRUE); // the model decides
-  refresh(strip);
+  refresh_verdict(strip);
   return scroller;
 }

@@ -34,7 +34,7 @@ G_DEFINE_TYPE(SbWindow, sb_window, GTK_TYPE_APPLICATION_WINDOW)
 
 // The clock runs only while something moves ------------------------------------------------------
 
-static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) {
+static gboolean on_window_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) {
   SbWindow *window = SB_WINDOW(widget);
   sb_session_tick(window->session, gdk_frame_clock_get_frame_time(clock));
   if (!sb_session_wants_ticks(window->session)) {
@@ -46,13 +46,13 @@ static gboolean on_tick(GtkWidget *widget, GdkFrameClock *clock, gpointer data) 
 
 static void ensure_tick(SbWindow *window) {
   if (window->tick == 0 && sb_session_wants_ticks(window->session)) {
-    window->tick = gtk_widget_add_tick_callback(GTK_WIDGET(window), on_tick, NULL, NULL);
+    window->tick = gtk_widget_add_tick_callback(GTK_WIDGET(window), on_window_tick, NULL, NULL);
   }
 }
 
 // State to header --------------------------------------------------------------------------------
 
-static void set_enabled(SbWindow *window, const char *name, gboolean enabled) {
+static void set_window_enabled(SbWindow *window, const char *name, gboolean enabled) {
   GAction *action = g_action_map_lookup_action(G_ACTION_MAP(window), name);
   g_simple_action_set_enabled(G_SIMPLE_ACTION(action), enabled);
 }
@@ -152,7 +152,8 @@ static void refresh_run_state(SbWindow *window) {
   gtk_widget_set_tooltip_text(window->run_button,
                               running ? _("Stop the run and keep its results so far (Ctrl+R)")
                                       : _("Run the cycle with these values (Ctrl+R)"));
-  set_enabled(window, "run-or-stop", running || (sb_session_model(session) != NULL && errors == 0));
+  set_window_enabled(window, "run-or-stop",
+                     running || (sb_session_model(session) != NULL && errors == 0));
 }
 
 // Names the edit that an undo (or redo) button changes in its tooltip and accessible description.
@@ -164,18 +165,18 @@ static void show_edit(GtkWidget *button, const SbDocument *document, bool redo) 
   atk_object_set_description(gtk_widget_get_accessible(button), what != NULL ? what : "");
 }
 
-static void refresh(SbWindow *window) {
+static void refresh_window(SbWindow *window) {
   const SbDocument *document = sb_session_document(window->session);
   refresh_titles(window);
   refresh_run_state(window);
-  set_enabled(window, "undo", sb_document_can_undo(document));
-  set_enabled(window, "redo", sb_document_can_redo(document));
+  set_window_enabled(window, "undo", sb_document_can_undo(document));
+  set_window_enabled(window, "redo", sb_document_can_redo(document));
   show_edit(window->undo_button, document, false);
   show_edit(window->redo_button, document, true);
-  set_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
-  set_enabled(window, "next-event", sb_session_run(window->session) != NULL);
-  set_enabled(window, "export", sb_session_may_keep(window->session));
-  set_enabled(window, "pin", sb_session_may_pin(window->session));
+  set_window_enabled(window, "previous-event", sb_session_run(window->session) != NULL);
+  set_window_enabled(window, "next-event", sb_session_run(window->session) != NULL);
+  set_window_enabled(window, "export", sb_session_may_keep(window->session));
+  set_window_enabled(window, "pin", sb_session_may_pin(window->session));
   ensure_tick(window);
 }
 
@@ -316,9 +317,9 @@ static void add_parts(SbWindow *window) {
 static void connect_session(SbWindow *window) {
   g_signal_connect(window, "key-press-event", G_CALLBACK(sb_window_on_key), NULL);
   g_signal_connect(window, "delete-event", G_CALLBACK(on_delete), NULL);
-  g_signal_connect_object(window->session, "params-changed", G_CALLBACK(refresh), window,
+  g_signal_connect_object(window->session, "params-changed", G_CALLBACK(refresh_window), window,
                           G_CONNECT_SWAPPED);
-  g_signal_connect_object(window->session, "run-changed", G_CALLBACK(refresh), window,
+  g_signal_connect_object(window->session, "run-changed", G_CALLBACK(refresh_window), window,
                           G_CONNECT_SWAPPED);
   g_signal_connect_object(window->session, "frames-changed", G_CALLBACK(on_frames), window,
                           G_CONNECT_SWAPPED);
@@ -356,7 +357,7 @@ static void sb_window_init(SbWindow *window) {
   if (sb_preferences_int("maximized", 0)) {
     gtk_window_maximize(GTK_WINDOW(window));
   }
-  refresh(window);
+  refresh_window(window);
   sb_section_view_focus(window->section);
 }
 

@@ -64,7 +64,7 @@ static void on_event(GSimpleAction *action, GVariant *parameter, gpointer data) 
   sb_session_step_event(SB_WINDOW(data)->session, next ? 1 : -1);
 }
 
-static void on_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
+static void on_actions_pin(GSimpleAction *action, GVariant *parameter, gpointer data) {
   if (sb_session_pin(SB_WINDOW(data)->session)) { // refresh() follows
     sb_toast_show(GTK_WINDOW(data), _("This run is pinned for comparison with later runs."), NULL,
                   NULL, FALSE);
@@ -76,7 +76,7 @@ static void on_auto_run(GSimpleAction *action, GVariant *state, gpointer data) {
   g_simple_action_set_state(action, state);
 }
 
-static void on_open(GSimpleAction *action, GVariant *parameter, gpointer data) {
+static void on_actions_open(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_window_files_open_dialog(SB_WINDOW(data)->files);
 }
 
@@ -127,7 +127,7 @@ static void on_copy_table(GSimpleAction *action, GVariant *parameter, gpointer d
   sb_toast_show(GTK_WINDOW(data), _("The data table is in the clipboard."), NULL, NULL, FALSE);
 }
 
-static void on_export(GSimpleAction *action, GVariant *parameter, gpointer data) {
+static void on_actions_export(GSimpleAction *action, GVariant *parameter, gpointer data) {
   sb_export_dialog_open(GTK_WINDOW(data), SB_WINDOW(data)->session);
 }
 
@@ -234,7 +234,7 @@ gboolean sb_window_on_key(GtkWidget *widget, GdkEventKey *event, gpointer data) 
 
 void sb_window_add_actions(SbWindow *window) {
   static const GActionEntry entries[] = {
-      {.name = "open", .activate = on_open},
+      {.name = "open", .activate = on_actions_open},
       {.name = "new", .activate = on_new},
       {.name = "save", .activate = on_save},
       {.name = "save-as", .activate = on_save_as},
@@ -254,7 +254,7 @@ void sb_window_add_actions(SbWindow *window) {
       {.name = "turn-right", .activate = on_turn},
       {.name = "turn-up", .activate = on_turn},
       {.name = "turn-down", .activate = on_turn},
-      {.name = "export", .activate = on_export},
+      {.name = "export", .activate = on_actions_export},
       {.name = "import-measured", .activate = on_import_measured},
       {.name = "import-scan", .activate = on_import_scan},
       {.name = "import-drawing", .activate = on_import_drawing},
@@ -263,7 +263,7 @@ void sb_window_add_actions(SbWindow *window) {
       {.name = "help", .activate = on_help},
       {.name = "show-help-overlay", .activate = on_shortcuts},
       {.name = "copy-table", .activate = on_copy_table},
-      {.name = "pin", .activate = on_pin},
+      {.name = "pin", .activate = on_actions_pin},
       {.name = "auto-run", .state = "true", .change_state = on_auto_run},
   };
   g_action_map_add_action_entries(G_ACTION_MAP(window), entries, G_N_ELEMENTS(entries), window);

@@ -22,15 +22,15 @@ struct SbWindowFiles {
   GFile *dropped;     // owned; NULL: no file was dropped
 };
 
-static gboolean save(SbWindowFiles *files, gboolean as);
+static gboolean save_file(SbWindowFiles *files, gboolean as);
 
 enum { START_HEIGHT = 340 }; // of the files that a new window offers [px]
 
 // Lines shown of a list of problems; more are counted.
 enum { LINES_MAX = 12 };
 
-static void show_message(SbWindowFiles *files, GtkMessageType type, const char *title,
-                         const char *text) {
+static void show_file_message(SbWindowFiles *files, GtkMessageType type, const char *title,
+                              const char *text) {
   GtkWidget *dialog =
       gtk_message_dialog_new(files->window, GTK_DIALOG_MODAL | GTK_DIALOG_DESTROY_WITH_PARENT, type,
                              GTK_BUTTONS_CLOSE, "%s", title);
@@ -53,11 +53,11 @@ static char *lines_of(const GPtrArray *issues) {
   return g_string_free(text, FALSE);
 }
 
-static void load(SbWindowFiles *files, GFile *file) {
+static void load_file(SbWindowFiles *files, GFile *file) {
   g_autofree char *path = g_file_get_path(file);
   if (path == NULL) {
-    show_message(files, GTK_MESSAGE_ERROR, _("This file cannot be opened."),
-                 _("Only files on this computer can be opened."));
+    show_file_message(files, GTK_MESSAGE_ERROR, _("This file cannot be opened."),
+                      _("Only files on this computer can be opened."));
     return;
   }
   g_autofree char *name = g_path_get_basename(path);
@@ -70,7 +70,7 @@ static void load(SbWindowFiles *files, GFile *file) {
                                : _("%s cannot be opened."),
                         shown);
     g_autofree char *text = lines_of(issues);
-    show_message(files, opened ? GTK_MESSAGE_WARNING : GTK_MESSAGE_ERROR, title, text);
+    show_file_message(files, opened ? GTK_MESSAGE_WARNING : GTK_MESSAGE_ERROR, title, text);
   }
   if (opened) {
     g_autofree char *uri = g_file_get_uri(file);
@@ -87,12 +87,12 @@ static void show_conflicts(SbWindowFiles *files, const GPtrArray *conflicts) {
     for (guint i = 0; i < conflicts->len && i < LINES_MAX; i++) {
       g_string_append_printf(text, "%s%s", i > 0 ? "\n" : "", (char *)conflicts->pdata[i]);
     }
-    show_message(files, GTK_MESSAGE_INFO,
-                 _("Both versions changed these values; yours are in force."), text->str);
+    show_file_message(files, GTK_MESSAGE_INFO,
+                      _("Both versions changed these values; yours are in force."), text->str);
   }
 }
 
-enum { RELOAD = 1, MERGE, KEEP_BOTH, SAVE_OVER };
+enum { RELOAD = 1, MERGE, ANSWER_KEEP_BOTH, SAVE_OVER };
 
 // Asks what becomes of a file that another program changed. Saving can also replace it.
 static int ask_disk(SbWindowFiles *files, gboolean saving) {
@@ -114,7 +114,7 @@ static int ask_disk(SbWindowFiles *files, gboolean saving) {
     gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Replace the File"), SAVE_OVER);
   }
   if (own) {
-    gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Keep Both"), KEEP_BOTH);
+    gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Keep Both"), ANSWER_KEEP_BOTH);
   }
   gtk_dialog_add_button(GTK_DIALOG(dialog), _("Re_load"), RELOAD);
   gtk_dialog_add_button(GTK_DIALOG(dialog), _("_Merge"), MERGE);
@@ -139,7 +139,7 @@ static gboolean resolve_disk(SbWindowFiles *files, gboolean saving) {
     saved = good && saving && sb_session_save(files->session, NULL, &error);
     good = error == NULL && good;
     break;
-  case KEEP_BOTH:
+  case ANSWER_KEEP_BOTH:
     saved = good = sb_session_keep_both(files->session, &error);
     break;
   case SAVE_OVER:
@@ -150,7 +150,7 @@ static gboolean resolve_disk(SbWindowFiles *files, gboolean saving) {
   }
   if (!good) {
     g_autofree char *text = error != NULL ? g_strdup(error->message) : lines_of(issues);
-    show_message(files, GTK_MESSAGE_ERROR, _("Nothing was changed."), text);
+    show_file_message(files, GTK_MESSAGE_ERROR, _("Nothing was changed."), text);
   }
   show_conflicts(files, conflicts);
   return saved;
@@ -173,7 +173,7 @@ gboolean sb_window_files_may_discard(SbWindowFiles *files) {
   int answer = gtk_dialog_run(GTK_DIALOG(dialog));
   gtk_widget_destroy(dialog);
   if (answer == GTK_RESPONSE_YES) {
-    return save(files, FALSE);
+    return save_file(files, FALSE);
   }
   return answer == GTK_RESPONSE_NO;
 }
@@ -216,13 +216,13 @@ static void ask_open(SbWindowFiles *files) {
   g_autoptr(GFile) file = gtk_file_chooser_get_file(GTK_FILE_CHOOSER(dialog));
   gtk_widget_destroy(dialog);
   if (answer == GTK_RESPONSE_ACCEPT && file != NULL) {
-    load(files, file);
+    load_file(files, file);
   }
 }
 
 void sb_window_files_open(SbWindowFiles *files, GFile *file) {
   if (sb_window_files_may_discard(files)) {
-    load(files, file);
+    load_file(files, file);
   }
 }
 
@@ -257,7 +257,7 @@ static char *ask_name(SbWindowFiles *files) {
   return name;
 }
 
-static gboolean save(SbWindowFiles *files, gboolean as) {
+static gboolean save_file(SbWindowFiles *files, gboolean as) {
   g_autofree char *name = NULL;
   if (as || sb_document_path(sb_session_document(files->session)) == NULL) {
     name = ask_name(files);
@@ -270,7 +270,7 @@ static gboolean save(SbWindowFiles *files, gboolean as) {
     if (error->code == SB_APP_ERROR_CHANGED) {
       return resolve_disk(files, TRUE);
     }
-    show_message(files, GTK_MESSAGE_ERROR, _("The file was not saved."), error->message);
+    show_file_message(files, GTK_MESSAGE_ERROR, _("The file was not saved."), error->message);
     return FALSE;
   }
   if (name != NULL) {
@@ -304,12 +304,12 @@ static void new_now(gpointer data) {
 
 static void save_now(gpointer data) {
   SbWindowFiles *files = data;
-  save(files, FALSE);
+  save_file(files, FALSE);
 }
 
 static void save_as_now(gpointer data) {
   SbWindowFiles *files = data;
-  save(files, TRUE);
+  save_file(files, TRUE);
 }
 
 static void resolve_now(gpointer data) {

@@ -6,7 +6,7 @@
 
 #include <math.h>
 
-enum { HEADER = 512, PROFILE = 1, SURFACE = 2 };
+enum { SUR_HEADER = 512, PROFILE = 1, SURFACE = 2 };
 
 // A text field, cut at its end, in UTF-8.
 static char *field(const guchar *p, gsize size) {
@@ -31,8 +31,8 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
                        GError **error) {
   const guchar *h = bytes.at;
   out->format = "Digital Surf";
-  if (bytes.end - bytes.at < HEADER) {
-    return sb_app_error_input(error, "is cut short: no header of %d bytes", HEADER);
+  if (bytes.end - bytes.at < SUR_HEADER) {
+    return sb_app_error_input(error, "is cut short: no header of %d bytes", SUR_HEADER);
   }
   const int kind = (gint16)sb_bytes_u16(h + 18), bits = (gint16)sb_bytes_u16(h + 98);
   const gint32 columns = (gint32)sb_bytes_u32(h + 108), rows = (gint32)sb_bytes_u32(h + 112);
@@ -46,7 +46,7 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   if (bits != 16 && bits != 32) {
     return sb_app_error_input(error, "has points of %d bits (allowed 16 or 32)", bits);
   }
-  const glong begin = HEADER + sb_bytes_u16(h + 334) + sb_bytes_u16(h + 336);
+  const glong begin = SUR_HEADER + sb_bytes_u16(h + 334) + sb_bytes_u16(h + 336);
   bytes.at += MIN(begin, bytes.end - bytes.at);
   double step = 0;
   const double missing =

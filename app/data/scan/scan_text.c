@@ -61,7 +61,7 @@ static void take_entry(GPtrArray *entries, const char *line, int number,
 
 // Returns the first entry that a key matches, an empty one without; of a `length` the first with a
 // unit, else the first number that is not one of points.
-static const SbScanEntry *find(const SbScanText *text, const char *key, bool length) {
+static const SbScanEntry *find_entry(const SbScanText *text, const char *key, bool length) {
   static const SbScanEntry none = {(char *)"", (char *)"", (char *)"", NAN, 0, 0};
   const SbScanEntry *found = &none;
   for (guint i = 0; i < text->entries->len; i++) {
@@ -91,8 +91,8 @@ typedef struct {
 // the size). What has a unit takes precedence. A size without a unit that equals the number of
 // points states that number.
 static void take_step(Header *h, const SbScanText *text, int axis, double count) {
-  const SbScanEntry *step = find(text, axis == 0 ? KEY_STEP_X : KEY_STEP_Y, true);
-  const SbScanEntry *size = find(text, axis == 0 ? KEY_SIZE_X : KEY_SIZE_Y, true);
+  const SbScanEntry *step = find_entry(text, axis == 0 ? KEY_STEP_X : KEY_STEP_Y, true);
+  const SbScanEntry *size = find_entry(text, axis == 0 ? KEY_SIZE_X : KEY_SIZE_Y, true);
   const bool by_size = step->unit == 0 && (size->unit > 0 || isnan(step->number));
   const SbScanEntry *use = by_size ? size : step;
   const bool counts = by_size && use->unit == 0 && use->number == count && h->lateral == 0;
@@ -103,15 +103,15 @@ static void take_step(Header *h, const SbScanText *text, int axis, double count)
 
 static Header header_of(const SbScanText *text) {
   const SbTextTableMatrix *matrix = &text->matrix;
-  Header h = {.columns = find(text, KEY_COLUMNS, false)->number,
-              .rows = find(text, KEY_ROWS, false)->number,
-              .missing = find(text, KEY_MISSING, false)->number,
-              .vertical = sb_scan_length(find(text, KEY_UNIT_Z, false)->value),
-              .lateral = sb_scan_length(find(text, KEY_UNIT_XY, false)->value)};
+  Header h = {.columns = find_entry(text, KEY_COLUMNS, false)->number,
+              .rows = find_entry(text, KEY_ROWS, false)->number,
+              .missing = find_entry(text, KEY_MISSING, false)->number,
+              .vertical = sb_scan_length(find_entry(text, KEY_UNIT_Z, false)->value),
+              .lateral = sb_scan_length(find_entry(text, KEY_UNIT_XY, false)->value)};
   // SPIP's lengths are in nanometres, those of surface data files in metres.
-  h.usual = g_ascii_strcasecmp(find(text, KEY_FORMAT, false)->value, "ASCII") == 0 ? 1e-9
-            : isfinite(find(text, KEY_METRES, false)->number)                      ? 1
-                                                                                   : 0;
+  h.usual = g_ascii_strcasecmp(find_entry(text, KEY_FORMAT, false)->value, "ASCII") == 0 ? 1e-9
+            : isfinite(find_entry(text, KEY_METRES, false)->number)                      ? 1
+                                                                                         : 0;
   h.lateral = h.lateral > 0 ? h.lateral : h.usual;
   // A size may be one step more than the distance between the ends of a profile.
   const double columns = h.columns >= 1 ? h.columns : (double)matrix->columns;
@@ -209,10 +209,10 @@ static bool take_matrix(SbScan *out, const SbScanText *text, const Header *h, GE
   return true;
 }
 
-static bool read_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
-                      GError **error) {
+static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
+                            GError **error) {
   Header h = header_of(text);
-  const SbScanEntry *title = find(text, KEY_TITLE, false);
+  const SbScanEntry *title = find_entry(text, KEY_TITLE, false);
   const gsize columns = text->matrix.columns;
   const bool sized = isfinite(h.columns) || (columns > 2 && isfinite(h.step[0] + h.step[1]));
   const bool points = !sized && columns == 3 && text->matrix.ragged == 0 && sb_scan_is_grid(text);
@@ -285,7 +285,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
   for (int i = 0; table->header[i] != NULL && entries->len < ENTRIES_MAX; i++) {
     take_entry(entries, table->header[i], i + 1, &table->dialect);
   }
-  const bool good = read_text(out, &text, choices, error);
+  const bool good = read_entry_text(out, &text, choices, error);
   g_array_unref(text.matrix.value);
   return good;
 }
