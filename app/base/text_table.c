@@ -143,6 +143,7 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
       shape.texts |= bit;
     }
     shape.cells = cell.length > 0 ? i + 1 : shape.cells;
+    shape.span = i + 1;
   }
   return shape;
 }
@@ -154,7 +155,7 @@ static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
   if (dialect->matrix) {
     return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 && a->decimals == b->decimals;
   }
-  return a->cells == b->cells && (a->texts & (b->numeric | b->clocks)) == 0 &&
+  return a->cells <= b->span && b->cells <= a->span && (a->texts & (b->numeric | b->clocks)) == 0 &&
          (b->texts & (a->numeric | a->clocks)) == 0 && (a->numeric & b->clocks) == 0 &&
          (b->numeric & a->clocks) == 0;
 }
@@ -182,6 +183,7 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
       seen[count++] = shape;
     }
     seen[at].cells = MAX(seen[at].cells, shape.cells);
+    seen[at].span = MAX(seen[at].span, shape.span);
     seen[at].numeric |= shape.numeric;
     seen[at].clocks |= shape.clocks;
     seen[at].texts |= shape.texts;
@@ -291,21 +293,37 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 
 // ---- Blocks ----
 
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
-                              const SbTextTableDialect *dialect, const SbTextTableShape *shape) {
-  enum { NAMES_BYTES = 4096 };
-  if (!row) {
-    const SbTextTableShape here = sb_text_table_shape(line, dialect);
-    const int least =
-        dialect->matrix ? 1 : MAX(2, __builtin_popcountll(shape->numeric | shape->clocks) - 1);
-    const bool numbers = !dialect->matrix && (here.numeric | here.clocks) != 0;
-    const bool names = !numbers && __builtin_popcountll(here.texts) >= least && !block->after_row;
-    if (names && !block->after_names) {
-      g_free(block->names);
-      block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
-    }
-    block->after_names = names;
+// Whether a line directly after a row names each column, not all alike as by "OVER"; between
+// blanks, where a remark has as many words, with a unit.
+static bool names_each(const SbTextTable *table, const GString *line) {
+  const SbTextTableShape *rows = &table->file->shape;
+  g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
+  int named = 0;
+  for (char **cell = cells; *cell != NULL; cell++) {
+    named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
   }
+  return named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
+         (table->dialect.separator != ' ' || strpbrk(line->str, "[(") != NULL);
+}
+
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
+                              const SbTextTable *table) {
+  enum { NAMES_BYTES = 4096 };
+  bool names = false;
+  if (!row) {
+    const SbTextTableShape here = sb_text_table_shape(line, &table->dialect);
+    const guint64 values = table->file->shape.numeric | table->file->shape.clocks;
+    const bool matrix = table->dialect.matrix;
+    const int least = matrix ? 1 : MAX(2, __builtin_popcountll(values) - 1);
+    const bool numbers = !matrix && (here.numeric | here.clocks) != 0;
+    names = !numbers && __builtin_popcountll(here.texts) >= least &&
+            (!block->after_row || (!matrix && names_each(table, line)));
+  }
+  if (names && !block->after_names) {
+    g_free(block->names);
+    block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
+  }
+  block->after_names = names;
   block->after_row = row;
 }
 
@@ -319,9 +337,9 @@ static void find_block(SbTextTable *table, const Sample *sample) {
   for (size_t i = 0; i < sample->head; i++) {
     const GString *line = sample->line->pdata[i];
     const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
-    const bool row =
-        is_row(&shape, &table->dialect) && same_shape(&shape, &table->file->shape, &table->dialect);
-    sb_text_table_block_next(&block, row, line, &table->dialect, &table->file->shape);
+    const bool row = (shape.numeric | shape.clocks) != 0 &&
+                     same_shape(&shape, &table->file->shape, &table->dialect);
+    sb_text_table_block_next(&block, row, line, table);
     if (!row) {
       continue;
     }

@@ -9,10 +9,10 @@
 // that begin with #, % or ! are comments.
 //
 // The table is the longest block of rows with the same cells. A line of names above rows begins a
-// block, except directly after a row; blocks under the same line are one. Other rows, such as those
-// of a results table, are not read. The lines above the table are its header: its last ones give
-// names and units. A unit is in brackets, follows "in", "/", "_" or a blank, or is in a line of
-// units.
+// block, directly after a row if it names each column; blocks under the same line are one. Other
+// rows, such as those of a results table, are not read. The lines above the table are its header:
+// its last ones give names and units. A unit is in brackets, follows "in", "/", "_" or a blank, or
+// is in a line of units.
 //
 // An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
 // interpretations in the message. The file stays open and is read piece by piece, so that memory is
@@ -65,7 +65,8 @@ typedef struct {
 // A table. All but names and units of columns is read-only.
 typedef struct {
   SbTextTableDialect dialect;
-  char **header;       // lines above the first row as UTF-8, without comment signs, ended by NULL
+  char **header;       // lines above the first row as UTF-8, without comment signs and with ; for
+                       // tabs, ended by NULL
   size_t header_lines; // number of lines before the first row
   size_t columns;
   SbTextTableColumn column[SB_TEXT_TABLE_COLUMNS_MAX]; // [columns]

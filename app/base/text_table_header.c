@@ -66,14 +66,16 @@ static void split_name(char **name, char **unit, const char *text) {
   static const char *const links[] = {" in ", " en ", "/", "_", ",", ":", " "};
   const size_t length = strlen(text);
   const char *open = NULL, *close = NULL;
+  bool known = false;
   *unit = NULL;
-  for (const char *c = text + length; c > text && *unit == NULL; c--) {
+  for (const char *c = text + length; c > text && !known; c--) {
     // The last brackets with a unit; else what is in brackets at the end.
     if (strchr("])}>", c[-1]) != NULL) {
       close = c - 1;
     } else if (close != NULL && strchr("[({<", c[-1]) != NULL) {
       g_autofree char *inside = unit_text(c, (size_t)(close - c));
-      if (is_unit(inside) || (close == text + length - 1 && open == NULL)) {
+      known = is_unit(inside);
+      if (known || (close == text + length - 1 && open == NULL)) {
         open = c - 1;
         g_free(*unit);
         *unit = g_steal_pointer(&inside);
@@ -95,7 +97,11 @@ static void split_name(char **name, char **unit, const char *text) {
 }
 
 static void add_cell(GPtrArray *out, const char *text, size_t length) {
-  g_autofree char *cell = sb_printable(text, length);
+  // Letters and brackets of full width are those of ASCII.
+  g_autofree char *printed = sb_printable(text, length);
+  g_autofree char *cell = strstr(printed, "\xef\xbc") != NULL
+                              ? g_utf8_normalize(printed, -1, G_NORMALIZE_NFKC)
+                              : g_strdup(printed);
   g_auto(GStrv) parts = g_strsplit(cell, "\"\"", -1);
   g_ptr_array_add(out, g_strjoinv("\"", parts));
 }
@@ -159,12 +165,15 @@ static bool are_units(char *const *cells) {
   return known > 0 && 2 * known > texts;
 }
 
-// Whether a header line can name the columns: it has a text for nearly all that have numbers.
+// Whether a header line can name the columns: it has a text for nearly all that have numbers, and
+// is not a row itself that has no value in one of them.
 static bool names_columns(const SbTextTable *table, char *const *cells) {
   size_t texts = 0, numbers = 0, count = 0;
+  double value;
   for (; cells[count] != NULL; count++) {
     const SbTextTableCell cell = {cells[count], strlen(cells[count])};
-    texts += count < table->columns && !sb_text_table_void(&cell);
+    texts += count < table->columns && !sb_text_table_void(&cell) &&
+             !sb_text_table_number(&value, &cell, &table->dialect, NULL);
   }
   for (size_t i = 0; i < table->columns; i++) {
     numbers += table->column[i].numeric || table->column[i].clock;
@@ -217,7 +226,7 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
   for (size_t i = 0; i < MIN(count, HEADER_LINES); i++) {
     g_autofree char *copy = g_strndup(line[i]->str, MIN(line[i]->len, HEADER_BYTES));
     char *text = copy + strspn(copy, "#;%!/ \t");
-    g_strdelimit(text, "\t", ' ');
+    g_strdelimit(text, "\t", ';');
     g_ptr_array_add(texts, sb_printable(text, strlen(text)));
   }
   g_ptr_array_add(texts, NULL);

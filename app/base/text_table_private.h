@@ -76,6 +76,7 @@ bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates);
 // Kinds of a line's cells, a bit each.
 typedef struct {
   size_t cells;    // of a matrix all; else at most SB_TEXT_TABLE_COLUMNS_MAX
+  size_t span;     // cells with the empty ones at the end
   size_t decimals; // number of digits behind each mark, with SB_TEXT_TABLE_PAIRS; else 0
   guint64 numeric, clocks, texts; // bit k: cell k is a number, a time of day, a text
   unsigned saw;                   // marks of the numbers
@@ -90,10 +91,6 @@ typedef struct {
   bool after_row, after_names;
 } SbTextTableBlock;
 
-// Moves to the next line: `row` states whether it is a row like those of `shape`.
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
-                              const SbTextTableDialect *dialect, const SbTextTableShape *shape);
-
 // Where a table is read from.
 typedef struct SbTextTableFile {
   char *shown; // the file, for messages
@@ -102,6 +99,10 @@ typedef struct SbTextTableFile {
   SbTextTableShape shape; // of its rows
   char *names;            // line of names above its rows, as in the file; NULL: none
 } SbTextTableFile;
+
+// Moves to the next line: `row` states whether it is a row of the table.
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
+                              const SbTextTable *table);
 
 // Fills the table's header, and names and units of its columns, from the lines line[count] (of
 // GString) above its rows.

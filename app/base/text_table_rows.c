@@ -67,54 +67,38 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
-// Doubles the room for rows. Returns a static text that states what is wrong, or NULL.
-static const char *make_room(double **value, size_t count, size_t *room) {
-  if (*room == SB_TEXT_TABLE_ROWS_MAX) {
-    return "has too many rows";
-  }
-  *room = MIN(MAX(2 * *room, 1024), SB_TEXT_TABLE_ROWS_MAX);
-  for (size_t k = 0; k < count; k++) {
-    double *more = g_try_realloc_n(value[k], *room, sizeof(double));
-    if (more == NULL) {
-      return "there is no memory for its rows";
-    }
-    value[k] = more;
-  }
-  return NULL;
-}
-
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues) {
   *out = (SbTextTableRows){0};
-  for (size_t k = 0; k < count; k++) {
-    value[k] = NULL;
-  }
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableLines *lines = &table->file->lines;
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
   const GString *text;
-  size_t room = 0, begun = 0; // blocks behind blank lines
+  // A row has two bytes at least. Memory that is not written to does not count.
+  const size_t room = MIN(lines->length / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
+  size_t begun = 0; // blocks behind blank lines
+  for (size_t k = 0; k < count; k++) {
+    value[k] = g_try_new(double, room);
+    wrong = value[k] == NULL ? "there is no memory for its rows" : wrong;
+  }
   bool blank = false, other = false;
   sb_text_table_seek(lines, 0);
   while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
+    Line line = {0};
     if ((size_t)lines->number <= table->header_lines) {
       continue;
-    }
-    Line line = {0};
-    if (text->len > 0 && strspn(text->str, "#%!") == 0) {
+    } else if (text->len > 0 && strspn(text->str, "#%!") == 0) {
       wrong = read_line(&line, row, days, table, column, count, text);
     }
     begun += blank && line.cells > 0;
     other = line.cells != table->columns && (other || (blank && line.cells > 0));
     blank = line.cells == 0;
     const bool like = line.good && line.any && !other;
-    sb_text_table_block_next(&block, like, text, &table->dialect, &table->file->shape);
+    sb_text_table_block_next(&block, like, text, table);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
-      if (wrong == NULL && out->rows == room) {
-        wrong = make_room(value, count, &room);
-      }
+      wrong = wrong == NULL && out->rows == room ? "has too many rows" : wrong;
       for (size_t k = 0; k < count && wrong == NULL; k++) {
         value[k][out->rows] = column[k] < table->columns ? row[k] : (double)begun;
       }
@@ -131,13 +115,13 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     }
   }
   wrong = wrong != NULL ? wrong : lines->wrong;
+  for (size_t k = 0; k < count; k++) { // freed where its size becomes 0
+    value[k] = g_renew(double, value[k], wrong == NULL ? MAX(out->rows, 1) : 0);
+  }
   if (wrong != NULL) {
     const bool date = wrong == ambiguous_date;
     sb_issues_add_choice(issues, table->file->shown, lines->number, date ? "dates" : NULL,
                          date ? "day-month\nmonth-day" : NULL, !date, "%s", wrong);
-    for (size_t k = 0; k < count; k++) {
-      g_clear_pointer(&value[k], g_free);
-    }
     g_clear_pointer(&out->left_text, g_free);
   }
   g_free(block.names);

@@ -72,8 +72,7 @@ static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
     return;
   }
   sb_profile_turn(body->profile, body->closed);
-  const SbProfile profile = {(const SbProfilePoint *)(void *)body->profile->data,
-                             body->profile->len, body->closed};
+  const SbProfile profile = sb_cad_profile(body);
   SbReport report = {0};
   if (sb_solid_revolve(&body->revolved, &profile, 1, &report) != SB_OK) {
     body->why = g_strdup(report.text);
@@ -86,14 +85,46 @@ static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
   sb_cad_features(body);
 }
 
+// Makes a body within an odd number of others of its layer a cavity of the smallest one.
+static void join_outline_cavities(SbCad *cad) {
+  const guint count = cad->bodies->len;
+  g_autofree SbCadBody **around = g_new0(SbCadBody *, count + 1);
+  for (guint i = 0; i < count; i++) {
+    const SbCadBody *inner = cad->bodies->pdata[i];
+    const SbProfile within = sb_cad_profile(inner);
+    guint depth = 0;
+    for (guint k = 0; k < count; k++) {
+      SbCadBody *body = cad->bodies->pdata[k];
+      const SbProfile outline = sb_cad_profile(body);
+      if (k != i && body->layer == inner->layer && !body->measured && within.count > 0 &&
+          outline.count > 0 && sb_profile_encloses(&outline, &within)) {
+        const bool nearer = depth++ == 0 || body->revolved.volume < around[i]->revolved.volume;
+        around[i] = nearer ? body : around[i];
+      }
+    }
+    around[i] = depth % 2 == 1 ? around[i] : NULL;
+  }
+  for (guint i = count; i-- > 0;) {
+    if (around[i] != NULL) {
+      sb_solid_remove(&around[i]->solid, &((SbCadBody *)cad->bodies->pdata[i])->solid);
+      around[i]->measured = true;
+      sb_note_add(cad->warnings, "%s: the outline within it is a cavity", around[i]->name);
+      g_ptr_array_remove_index(cad->bodies, i);
+    }
+  }
+}
+
 // Differences of the moments across the axis, and of the volumes, from those of a body of
 // revolution that are reported as a warning.
 static const double ROUND = 0.02;
 
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
   for (guint i = 0; i < cad->bodies->len; i++) {
+    settle_body(cad->bodies->pdata[i], choices);
+  }
+  join_outline_cavities(cad);
+  for (guint i = 0; i < cad->bodies->len; i++) {
     SbCadBody *body = cad->bodies->pdata[i];
-    settle_body(body, choices);
     double(*const moment)[3] = body->solid.inertia;
     const double apart = hypot(moment[1][1] - moment[2][2], 2 * moment[1][2]);
     const double uneven = apart / (moment[1][1] + moment[2][2]);

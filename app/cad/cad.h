@@ -4,10 +4,11 @@
 // A STEP file is read by the program sealbench-cad (gmsh with OpenCASCADE), which runs with limits
 // of time and memory, finds the axis, cuts the bodies by a half-plane through it and measures them.
 // An STL is a mesh: each of its connected shells is a body, which is measured and cut here. In a
-// DXF each closed outline is a body. All give half-profiles of straight pieces and arcs in the form
-// of the key [part.NAME] profile; other curves are approximated by arcs within SB_CAD_TOLERANCE.
-// Of a body that the half-plane cuts into several outlines, the profile is the outline with the
-// largest revolved volume; `solid` is always the complete body.
+// DXF each closed outline is a body, or a cavity of the one around it on its layer. All give
+// half-profiles of straight pieces and arcs in the form of the key [part.NAME] profile; other
+// curves are approximated by arcs within SB_CAD_TOLERANCE. Of a body that the half-plane cuts into
+// several outlines, the profile is the outline with the largest revolved volume; `solid` is always
+// the complete body.
 //
 // Coordinates: x along the axis of the bodies, 0 where the file's origin projects on it, then
 // reversed (`flip`) and moved (`shift`); r is the distance from the axis. The largest component of
@@ -45,7 +46,8 @@ typedef struct {
   bool closed;      // as SbProfile.closed
   char *why;        // why the profile is empty; else NULL
   SbSolid revolved; // of the revolved half-section, with a density of 1 kg/m3
-  bool measured;    // `solid` is from the file's geometry: a STEP body or the facets of an STL
+  bool measured;    // `solid` is from the file's geometry: a STEP body, an STL, a DXF with cavities
+  guint layer;      // equal for the outlines of one layer or section
   SbSolid solid;    // of the body with a density of 1 kg/m3, its axis along x; else as `revolved`
   GArray *features; // of SbCadFeature, in the order of x
 } SbCadBody;

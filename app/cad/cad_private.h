@@ -67,13 +67,19 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 // the drawing that it is added to.
 SbCadBody *sb_cad_body_new(const char *name);
 
+// Returns the half-section of a body, borrowed.
+static inline SbProfile sb_cad_profile(const SbCadBody *body) {
+  return (SbProfile){(void *)body->profile->data, body->profile->len, body->closed};
+}
+
 // Frees a body; not NULL.
 void sb_cad_body_free(SbCadBody *body);
 
 // Completes the bodies: applies `flip` and `shift`, orders the profiles counter-clockwise, checks
 // them, and computes `revolved`, `solid` (unless `measured`) and the features. If a profile bounds
-// no body, it becomes empty and `why` states the problem. Warns for each measured body that is not
-// one of revolution. To be called once.
+// no body, it becomes empty and `why` states the problem. A body within another one of its layer
+// becomes its cavity. Warns for each measured body that is not one of revolution. To be called
+// once.
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
 
 // Appends lands, bores and grooves of a counter-clockwise profile, as sb_cad_settle() has done.

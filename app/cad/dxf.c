@@ -9,6 +9,7 @@
 #include "app/base/error.h"
 #include "app/base/unit.h"
 #include "app/cad/dxf_private.h"
+#include "app/cad/dxf_words.def"
 
 #include <math.h>
 
@@ -34,14 +35,15 @@ typedef struct {
 } Block;
 
 typedef struct {
-  SbDxfReader text;     // at its start
-  Block *model;         // the section ENTITIES
-  GHashTable *blocks;   // name in lower case -> Block
-  GHashTable *hidden;   // name of a layer in lower case -> why it is not seen
-  GPtrArray *names;     // of the layers with pieces, in order of appearance
-  GPtrArray *layers;    // of GArray of SbCadPiece [m], in the order of `names`
-  GHashTable *left_out; // type and reason -> count
-  GArray *centre;       // of SbCadPiece [m]: centre lines
+  SbDxfReader text;       // at its start
+  Block *model;           // the section ENTITIES
+  GHashTable *blocks;     // name in lower case -> Block
+  GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
+  GHashTable *line_types; // the same -> its type of lines
+  GPtrArray *names;       // of the layers with pieces, in order of appearance
+  GPtrArray *layers;      // of GArray of SbCadPiece [m], in the order of `names`
+  GHashTable *left_out;   // type and reason -> count
+  GArray *centre;         // of SbCadPiece [m]: centre lines
   guint pieces, items, placed;
   char *unit;   // owned; NULL: not known
   double scale; // its length [m]
@@ -49,16 +51,26 @@ typedef struct {
 
 // ---- Placing ----
 
-static bool is_centre_line(const SbDxfEntity *entity) {
-  return sb_dxf_is(entity, "LINE") && (g_ascii_strncasecmp(entity->line_type, "center", 6) == 0 ||
-                                       g_ascii_strncasecmp(entity->layer, "axis", 4) == 0 ||
-                                       g_ascii_strncasecmp(entity->layer, "cent", 4) == 0);
-}
-
 // Returns the value of a name in any case.
 static gpointer find(GHashTable *table, const char *name) {
   g_autofree char *key = g_ascii_strdown(name, -1);
   return g_hash_table_lookup(table, key);
+}
+
+// Returns whether an entity on `layer` is a line whose type, or the layer's, or the layer's name
+// begins as those of centre lines do.
+static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer) {
+  g_auto(GStrv) starts = g_strsplit(SB_DXF_CENTRE, "|", -1);
+  const bool by_layer =
+      *entity->line_type == '\0' || g_ascii_strcasecmp(entity->line_type, "bylayer") == 0;
+  const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
+  bool centre = false;
+  for (size_t i = 0; sb_dxf_is(entity, "LINE") && starts[i] != NULL; i++) {
+    const size_t length = strlen(starts[i]);
+    centre = centre || g_ascii_strncasecmp(layer, starts[i], length) == 0 ||
+             (type != NULL && g_ascii_strncasecmp(type, starts[i], length) == 0);
+  }
+  return centre;
 }
 
 // Counts an entity that was not read, with the reason ("" or " in paper space").
@@ -163,7 +175,7 @@ static bool place_entity(Drawing *drawing, const SbDxfEntity *entity, const SbDx
     count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
   }
-  return add_pieces(drawing, on, is_centre_line(entity), pieces, error);
+  return add_pieces(drawing, on, is_centre_line(drawing, entity, on), pieces, error);
 }
 
 // Places all entities of a block; `layer` of its INSERT.
@@ -196,12 +208,6 @@ static void block_free(gpointer data) {
   g_free(block);
 }
 
-// Names of $INSUNITS for udunits-2, from 1. The inch of the US survey (22), which udunits-2 does
-// not know, is longer than the inch by 2e-6.
-#define UNITS                                                                                      \
-  "inch|foot|mile|mm|cm|m|km|uin|mil|yard|angstrom|nm|um|dm|dam|hm|Gm|astronomical_unit|"          \
-  "light_year|parsec|US_survey_foot|inch|US_survey_yard|US_survey_mile"
-
 // Reads a record of a section at `item`: a layer, the begin or end of a block, an entity.
 static bool read_record(Drawing *drawing, const char *section, const char *type,
                         const SbDxfItem *item, Block **open, GError **error) {
@@ -218,6 +224,7 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
       const bool frozen = ((int)entity.number[70] & 1) != 0;
       const char *state = frozen ? "frozen" : entity.number[62] < 0 ? "off" : NULL;
       g_hash_table_replace(drawing->hidden, key, (char *)state);
+      g_hash_table_replace(drawing->line_types, g_strdup(key), g_strdup(entity.line_type));
     } else {
       *open = g_new0(Block, 1);
       (*open)->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
@@ -244,10 +251,10 @@ static bool read_file(Drawing *drawing, GError **error) {
   bool named = false, sections = false, good = true;
   while (good) {
     const SbDxfItem item = reader.next;
-    if (!sb_dxf_read_pair(&reader, error)) {
+    const char *value = reader.value;
+    if (!sb_dxf_read_pair(&reader, error) || (reader.code == 0 && strcmp(value, "EOF") == 0)) {
       break;
     }
-    const char *value = reader.value;
     if (reader.code == 0) {
       named = strcmp(value, "SECTION") == 0;
       sections = sections || named;
@@ -266,7 +273,7 @@ static bool read_file(Drawing *drawing, GError **error) {
     } else if (strcmp(variable, "$INSUNITS") == 0 && reader.code == 70) {
       double number = 0;
       good = sb_dxf_number(&reader, &number, error);
-      g_auto(GStrv) units = g_strsplit(UNITS, "|", -1);
+      g_auto(GStrv) units = g_strsplit(SB_DXF_UNITS, "|", -1);
       if (good && drawing->unit == NULL && number >= 1 && number <= g_strv_length(units)) {
         drawing->unit = g_strdup(units[(int)number - 1]);
       }
@@ -392,6 +399,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .model = &model,
       .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
       .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
+      .line_types = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
       .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref),
@@ -414,6 +422,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
   g_array_unref(model.items);
   g_hash_table_unref(drawing.blocks);
   g_hash_table_unref(drawing.hidden);
+  g_hash_table_unref(drawing.line_types);
   g_hash_table_unref(drawing.left_out);
   g_ptr_array_unref(drawing.names);
   g_ptr_array_unref(drawing.layers);

@@ -30,12 +30,11 @@ static double length_of(const SbCadPiece *piece) {
 static bool closes(const GArray *chain, double gap) {
   const SbCadPiece *first = &g_array_index(chain, SbCadPiece, 0);
   const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
-  bool good = hypot(last->x1 - first->x0, last->y1 - first->y0) <= gap;
   double length = 0;
-  for (guint i = 0; good && length <= 2 * gap && i < chain->len; i++) {
+  for (guint i = 0; length <= 2 * gap && i < chain->len; i++) {
     length += length_of(&g_array_index(chain, SbCadPiece, i));
   }
-  return good && length > 2 * gap;
+  return length > 2 * gap && hypot(last->x1 - first->x0, last->y1 - first->y0) <= gap;
 }
 
 // Appends the unused piece with the end that is nearest to the end of `chain`, turned to begin
@@ -404,12 +403,13 @@ static GPtrArray *find_outlines(SbCad *cad, const GArray *pieces, const char *na
 
 // Returns whether a profile has no area: it is as thin as ends that are one point are far apart.
 static bool is_degenerate(const GArray *profile, double gap) {
+  const SbProfile points = {(void *)profile->data, profile->len, true};
   double length = 0;
   for (guint i = 1; i < profile->len; i++) {
     const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i - 1), *q = p + 1;
     length += hypot(q->x - p->x, q->r - p->r);
   }
-  return fabs(sb_profile_area(profile)) <= gap * length;
+  return profile->len < 2 || fabs(sb_profile_area(&points)) <= gap * length;
 }
 
 void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
@@ -419,6 +419,7 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
     return;
   }
   guint doubled = 0, made = 0;
+  const guint first = cad->bodies->len;
   g_autoptr(GArray) single = tidied(pieces, fmin(gap, DOUBLED), &doubled);
   g_autoptr(GPtrArray) outlines = find_outlines(cad, single, name, gap);
   if (doubled > 0) {
@@ -440,6 +441,7 @@ void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double 
     }
     g_autofree char *own = made > 0 ? g_strdup_printf("%s %u", name, made + 1) : g_strdup(name);
     SbCadBody *body = sb_cad_body_new(own);
+    body->layer = first;
     half_section(body, chain, gap);
     if (body->why == NULL && is_degenerate(body->profile, gap)) {
       sb_cad_body_free(body);
@@ -467,7 +469,7 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
     body->why = body->why != NULL ? body->why : g_strdup(why);
     return;
   }
-  if (count > 1) {
+  if (count > 1 || best->measured) {
     sb_note_add(cad->warnings,
                 "%s: cut into %u pieces or hollow inside; the largest outline is its profile",
                 body->name, count);

@@ -48,23 +48,9 @@ GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
   return good ? g_steal_pointer(&points) : NULL;
 }
 
-double sb_profile_area(const GArray *profile) {
-  double sum = 0;
-  for (guint i = 0; i < profile->len; i++) {
-    const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i);
-    const SbProfilePoint *q = &g_array_index(profile, SbProfilePoint, (i + 1) % profile->len);
-    sum += (p->x * q->r - q->x * p->r) / 2;
-    if (p->bulge != 0) {
-      const double angle = 4 * atan(p->bulge), chord = hypot(q->x - p->x, q->r - p->r);
-      const double radius = chord / (2 * sin(angle / 2));
-      sum += radius * radius * (angle - sin(angle)) / 2;
-    }
-  }
-  return sum;
-}
-
 void sb_profile_turn(GArray *points, bool closed) {
-  const guint n = sb_profile_area(points) < 0 ? points->len : 0;
+  const SbProfile profile = {(void *)points->data, points->len, closed};
+  const guint n = points->len > 1 && sb_profile_area(&profile) < 0 ? points->len : 0;
   g_autofree SbProfilePoint *old = g_memdup2(points->data, n * sizeof *old);
   for (guint i = 0; i < n; i++) {
     SbProfilePoint *p = &g_array_index(points, SbProfilePoint, i);

@@ -22,10 +22,6 @@
 // points. Orientation and crossings are not checked (sb_profile_check()).
 GArray *sb_profile_parse(const char *text, bool *closed, GError **error);
 
-// Returns the area [m2] in the outline `points` (of SbProfilePoint): > 0 counter-clockwise. The
-// last bulge is that of the piece to the first point; 0 if both are on the axis, which closes it.
-double sb_profile_area(const GArray *points);
-
 // Orders the points (of SbProfilePoint) counter-clockwise in the (x, r) plane, as SbProfile
 // requires: reverses them in place, with their bulges, if they are clockwise. `closed`, as
 // sb_profile_parse() sets it: a piece from the last point to the first closes the outline; else the

@@ -175,24 +175,20 @@ static bool is_word(const Text *t, const char *word) {
 }
 
 static bool read_facet(GArray *corners, Text *t, GError **error) {
-  static const struct {
-    const char *word;
-    int numbers, kept; // that follow it
-  } parts[] = {{"normal", 3, 0}, {"outer", 0, 0},  {"loop", 0, 0},    {"vertex", 3, 3},
-               {"vertex", 3, 3}, {"vertex", 3, 3}, {"endloop", 0, 0}, {"endfacet", 0, 0}};
-  for (gsize i = 0; i < G_N_ELEMENTS(parts); i++) {
-    double number[3];
-    if (!next_word(t) || !is_word(t, parts[i].word)) {
-      return sb_app_error_input(error, "line %d: '%s' expected, not '%s'", t->line, parts[i].word,
-                                t->word);
+  // #: a number; *: anything, as exporters write for the normal of a facet without area.
+  static const char *const words[] = {"normal", "*", "*", "*",      "outer",   "loop",    "vertex",
+                                      "#",      "#", "#", "vertex", "#",       "#",       "#",
+                                      "vertex", "#", "#", "#",      "endloop", "endfacet"};
+  for (gsize i = 0; i < G_N_ELEMENTS(words); i++) {
+    const bool number = *words[i] == '#';
+    double value;
+    if (!next_word(t) ||
+        !(number ? sb_number_parse(&value, t->word) : *words[i] == '*' || is_word(t, words[i]))) {
+      return sb_app_error_input(error, "line %d: %s expected, not '%s'%s", t->line,
+                                number ? "a number" : words[i], t->word,
+                                strlen(t->word) > SB_NUMBER_LENGTH_MAX ? "... (too long)" : "");
     }
-    for (int k = 0; k < parts[i].numbers; k++) {
-      if (!next_word(t) || !sb_number_parse(&number[k], t->word)) {
-        return sb_app_error_input(error, "line %d: a number expected, not '%s'%s", t->line, t->word,
-                                  strlen(t->word) > SB_NUMBER_LENGTH_MAX ? "... (too long)" : "");
-      }
-    }
-    g_array_append_vals(corners, number, (guint)parts[i].kept);
+    g_array_append_vals(corners, &value, number);
   }
   return true;
 }

@@ -254,9 +254,11 @@ static int compute_surface(const char *path, SurfaceOptions *options) {
     return code;
   }
   g_autofree SbScanFigures *figures = g_new0(SbScanFigures, 1);
-  SbReport report = {0};
-  code = sb_cli_status(sb_scan_figures(figures, &scan.heights, &options->choices.heights, &report),
-                       &report);
+  SbReport report = {0}, named = {0};
+  const SbStatus status =
+      sb_scan_figures(figures, &scan.heights, &options->choices.heights, &report);
+  sb_text(named.text, sizeof named.text, "%s: %s", path, report.text);
+  code = sb_cli_status(status, &named);
   const SbSurface surface = {path, &scan, &options->choices.heights, figures};
   if (code == SB_EXIT_DONE && options->scene != NULL) {
     code = write_surface_scene(&surface, options);

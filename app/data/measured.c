@@ -17,16 +17,9 @@ static const struct {
   const char *words; // pattern of a column's name
   const char *units; // usual units, one a line
 } channels[SB_CHANNELS] = {
-    {"s", 1e11, "time|zeit|temps|ti?empo|^\\W*t\\W*$|seconds|\\bsec\\b|時間|时间", "s\nms\nmin"},
-    {"m", 0.2,
-     "displ|\\bdisp\\b|weg|position|extension|travel|stroke|\\bhub\\b|placement|course|crosshead|"
-     "travers|deflection|desplaz|spostamento|distan|écrasement|ecrasement|corsa|compression|"
-     "stauchung|verformung|変位|位移|^\\W*[sx]\\W*$|allong|allung|alarg|recorr|carrera|posi[cz]i",
-     "mm\nµm\nin"},
-    {"N", 1e5,
-     "force|kraft|\\bload\\b|\\blast\\b|effort|\\bcharge\\b|carga|carico|fuerza|forza|荷重|試験力|"
-     "^\\W*f\\W*$",
-     "N\nkN\ngf\nkgf\nlbf"},
+#define SB_CHANNEL(name, si, most, words, units) {si, most, words, units},
+#include "app/data/measured_channels.def"
+#undef SB_CHANNEL
 };
 
 void sb_measured_free(SbMeasured *measured) {

@@ -127,9 +127,9 @@ typedef struct {
 } SbMeasuredPoint;
 
 // Returns the rows of the cycles in use, in the order of time, and their number in *count. Rows at
-// rest, on the stop, and within 1 % of the stroke of either are left out. If there are more than
-// `count_max` rows, means of equally many neighbours on one stroke take their place (the result can
-// then have two more points for each cycle). Freed by g_free().
+// rest, on the stop, and within 1 % of the stroke of either are left out. If the cycles have more
+// rows than `count_max`, means of equally many neighbours on one stroke take their place (then up
+// to two more points for each cycle). Freed by g_free().
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *measured, size_t count_max);
 
 // Scatter of several cycles: the stroke from 0 to `end` [m] is divided into equal pieces.

@@ -10,6 +10,7 @@
 // explains less than half of the squares a straight line leaves is none.
 #include "app/data/measured_private.h"
 
+#include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_double.h>
 
 #include <math.h>
@@ -188,25 +189,19 @@ static void find_no_load(SbMeasured *m, const Rise *rise) {
 }
 
 static void find_compliance(SbMeasured *m, const Rise *rise) {
-  double n = 0, force = 0, place = 0, square = 0, product = 0;
-  for (int round = 0; round < 2; round++) {
-    for (size_t i = rise->begin; i < rise->end; i++) {
-      const double share = (m->force[i] - m->no_load) / (rise->level - m->no_load);
-      if (share < 0.2 || share > 0.8) {
-        continue;
-      }
-      if (round == 0) {
-        n++;
-        force += m->force[i];
-        place += m->displacement[i];
-      } else {
-        square += pow(m->force[i] - force / n, 2);
-        product += (m->force[i] - force / n) * (m->displacement[i] - place / n);
-      }
-    }
+  g_autofree double *force = g_new(double, rise->end - rise->begin + 1);
+  g_autofree double *place = g_new(double, rise->end - rise->begin + 1);
+  size_t n = 0;
+  for (size_t i = rise->begin; i < rise->end; i++) {
+    const double share = (m->force[i] - m->no_load) / (rise->level - m->no_load);
+    force[n] = m->force[i];
+    place[n] = m->displacement[i];
+    n += share >= 0.2 && share <= 0.8;
   }
-  if (n >= 4 && square > 0) {
-    const double slope = product / square;
+  double offset, slope, covariance[3], square;
+  if (n >= 4 && gsl_stats_variance(force, 1, n) > 0) {
+    gsl_fit_linear(force, 1, place, 1, n, &offset, &slope, covariance, covariance + 1,
+                   covariance + 2, &square);
     m->compliance = SB_HOW_FOUND;
     m->slope = slope * (rise->level - m->no_load) > 2e-4 * rise->range ? slope : 0;
   }

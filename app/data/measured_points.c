@@ -21,14 +21,8 @@ static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, 
 }
 
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t count_max) {
-  size_t rows = 0;
   int way;
-  for (size_t c = m->first; c <= m->last; c++) {
-    const SbMeasuredCycle *cycle = sb_measured_cycle(m, c);
-    for (size_t i = cycle->begin; i < cycle->end; i++) {
-      rows += slides(&way, m, cycle, i);
-    }
-  }
+  const size_t rows = sb_measured_cycle(m, m->last)->end - sb_measured_cycle(m, m->first)->begin;
   const size_t each = rows / MAX(count_max, 1) + (rows % MAX(count_max, 1) != 0);
   SbMeasuredPoint *point =
       g_new(SbMeasuredPoint, rows / MAX(each, 1) + 2 * (m->last - m->first) + 4);

@@ -182,6 +182,42 @@ static void moments_of(Moments *m, const SbProfile *p, double origin) {
   }
 }
 
+double sb_profile_area(const SbProfile *p) {
+  Moments m;
+  moments_of(&m, p, p->point[0].x);
+  return m.area;
+}
+
+// Whether an outline turns once about a point.
+static bool is_inside(const SbProfile *p, double x, double r) {
+  double turn = 0.0;
+  for (size_t i = 0; i < p->count; i++) { // the axis too, where it closes the outline
+    Piece s;
+    piece_at(&s, p, i, x);
+    double r0 = s.r0 - r, r1 = s.r1 - r, cross = s.x0 * r1 - s.x1 * r0;
+    turn += atan2(cross, s.x0 * s.x1 + r0 * r1);
+    // Between chord and arc, the arc turns once more about it.
+    if (s.arc && hypot(s.cx, s.cr - r) < s.radius && cross * s.sweep < 0.0) {
+      turn += s.sweep > 0.0 ? 2.0 * M_PI : -2.0 * M_PI;
+    }
+  }
+  return fabs(turn) > M_PI;
+}
+
+bool sb_profile_encloses(const SbProfile *outer, const SbProfile *inner) {
+  enum { LOOKED = 16 };
+  size_t n = 2 * pieces_of(inner);
+  bool inside = true;
+  for (size_t i = 0; i < n && inside; i += 1 + n / LOOKED) {
+    Piece s;
+    double x, r;
+    piece_at(&s, inner, i / 2, 0.0);
+    point_on(&s, i % 2 == 0 ? 0.0 : 0.5, &x, &r);
+    inside = r == 0.0 || is_inside(outer, x, r);
+  }
+  return inside;
+}
+
 SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
   if (p->count < 2 || p->count > SB_PROFILE_MAX) {
     return sb_fail(report, SB_ERROR_INPUT, "a profile has 2 to %d points, not %zu", SB_PROFILE_MAX,
@@ -266,6 +302,27 @@ SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *p, double density, Sb
   solid->inertia[1][1] = across;
   solid->inertia[2][2] = across;
   return sb_succeed(report);
+}
+
+void sb_solid_remove(SbSolid *body, const SbSolid *hole) {
+  const SbSolid part[2] = {*body, *hole};
+  *body = (SbSolid){part[0].volume - part[1].volume, part[0].mass - part[1].mass, {0.0}, {{0.0}}};
+  for (int k = 0; k < 3; k++) {
+    body->centre[k] =
+        (part[0].mass * part[0].centre[k] - part[1].mass * part[1].centre[k]) / body->mass;
+  }
+  for (int n = 0; n < 2; n++) { // about the new centre
+    double d[3], square = 0.0;
+    for (int k = 0; k < 3; k++) {
+      d[k] = part[n].centre[k] - body->centre[k];
+      square += d[k] * d[k];
+    }
+    for (int k = 0; k < 9; k++) {
+      int i = k / 3, j = k % 3;
+      double about = part[n].inertia[i][j] + part[n].mass * ((i == j ? square : 0.0) - d[i] * d[j]);
+      body->inertia[i][j] += n == 0 ? about : -about;
+    }
+  }
 }
 
 // ---- diameters ----

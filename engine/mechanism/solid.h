@@ -37,6 +37,14 @@ typedef struct {
                         // diagonal minus the products of inertia
 } SbSolid;
 
+// Returns the area [m2] in an outline of at least 2 points, which need not be counter-clockwise:
+// then the area is negative.
+double sb_profile_area(const SbProfile *profile);
+
+// Returns whether an outline is inside of another one: about 16 of its points off the axis are.
+// Both satisfy sb_profile_check().
+bool sb_profile_encloses(const SbProfile *outer, const SbProfile *inner);
+
 // Checks an outline. SB_ERROR_INPUT: it does not bound a body (open, crosses itself, clockwise,
 // below the axis, zero area); the report names the fault and the piece (counted from 0).
 SbStatus sb_profile_check(const SbProfile *profile, SbReport *report);
@@ -45,6 +53,9 @@ SbStatus sb_profile_check(const SbProfile *profile, SbReport *report);
 // above 0. SB_ERROR_INPUT as for sb_profile_check().
 SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *profile, double density,
                           SbReport *report);
+
+// Makes `hole`, a part of `body` with the same density, a hole of it.
+void sb_solid_remove(SbSolid *body, const SbSolid *hole);
 
 // Diameters of a revolved part within a range of x [m].
 typedef struct {

@@ -40,11 +40,12 @@ static SbStatus check_edges(const unsigned *triangles, size_t count, SbReport *r
   SbStatus status = SB_OK;
   for (size_t i = 0; i < n && status == SB_OK; i++) {
     if (i + 1 < n && edge[i].ends == edge[i + 1].ends) {
-      status = sb_fail(
-          report, SB_ERROR_INPUT,
-          "triangles %zu and %zu run along their common edge in the same direction: the mesh "
-          "has mixed handedness or branches",
-          edge[i].triangle, edge[i + 1].triangle);
+      status =
+          sb_fail(report, SB_ERROR_INPUT,
+                  "triangles %zu and %zu run along their common edge in the same direction: two "
+                  "solids touch "
+                  "or one is there twice (export each by itself), or the mesh has mixed handedness",
+                  edge[i].triangle, edge[i + 1].triangle);
       break;
     }
     Edge back = {ends_of(edge[i].ends & UINT32_MAX, edge[i].ends >> 32), 0};

@@ -290,6 +290,81 @@ static void test_left_out(void) {
                   "that is invisible, 1 SPLINE with fit points only");
 }
 
+// The centre line, 1 mm below the origin, is known by its type, its layer's type or its layer's
+// name.
+static void test_centre_line(void) {
+  static const struct {
+    const char *layer, *type, *layer_type;
+  } lines[] = {{"0", "CENTER2", ""},
+               {"0", "ACAD_ISO10W100", ""},
+               {"0", "STRICHPUNKT", ""},
+               {"thin", "BYLAYER", "CENTER"},
+               {"thin", "", "DASHDOT"},
+               {"Mittellinie", "", ""},
+               {"Achse", "", "CONTINUOUS"},
+               {"AM_7", "", ""},
+               {"axe", "", ""}};
+  for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    const gsize at = (gsize)(strstr(dxf->str, "  0\r\nSECTION\r\n  2\r\nENTITIES") - dxf->str);
+    g_autoptr(GString) tables = g_string_new(NULL);
+    drawing_put(tables, 0, "SECTION");
+    drawing_put(tables, 2, "TABLES");
+    drawing_put(tables, 0, "LAYER");
+    drawing_put(tables, 2, "%s", lines[i].layer);
+    drawing_put(tables, 6, "%s", lines[i].layer_type);
+    drawing_put(tables, 0, "ENDSEC");
+    g_string_insert(dxf, (gssize)at, tables->str);
+    put_square(dxf, "part", 0);
+    drawing_line(dxf, lines[i].layer, -5, -1, 15, -1);
+    drawing_put(dxf, 6, "%s", lines[i].type);
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 24), 1, 1e-9);
+  }
+}
+
+static void put_rectangle(GString *dxf, const char *layer, const double at[4]) {
+  drawing_line(dxf, layer, at[0], at[1], at[2], at[1]);
+  drawing_line(dxf, layer, at[2], at[1], at[2], at[3]);
+  drawing_line(dxf, layer, at[2], at[3], at[0], at[3]);
+  drawing_line(dxf, layer, at[0], at[3], at[0], at[1]);
+}
+
+// An outline within another one of its layer is a cavity, one within that a body; one in a groove
+// or on another layer is a body.
+static void test_cavities(void) {
+  static const double hole[4] = {2.2, 1.5, 3.2, 2.5}, core[4] = {2.4, 1.7, 3, 2.3};
+  static const double groove[8][2] = {{10, 1}, {16, 1}, {16, 3}, {14, 3},
+                                      {14, 2}, {12, 2}, {12, 3}, {10, 3}};
+  for (int kind = 0; kind < 3; kind++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    put_square(dxf, "part", 0);
+    put_rectangle(dxf, kind < 2 ? "part" : "seal", hole);
+    if (kind == 1) {
+      put_rectangle(dxf, "part", core);
+      for (int i = 0; i < 8; i++) {
+        const double *p = groove[i], *q = groove[(i + 1) % 8];
+        drawing_line(dxf, "part", p[0], p[1], q[0], q[1]);
+      }
+      put_rectangle(dxf, "part", (double[4]){12.5, 2.25, 13.5, 2.75});
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    g_assert_cmpuint(cad->bodies->len, ==, kind == 0 ? 1 : kind == 1 ? 4 : 2);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / M_PI, kind < 2 ? 12 : 16, 1e-9);
+    if (kind < 2) {
+      g_assert_nonnull(strstr(cad->warnings->pdata[0], "is a cavity"));
+      g_assert_cmpfloat_with_epsilon(1e3 * body->solid.centre[0], 3.1, 1e-9);
+      g_assert_cmpfloat_with_epsilon(1e15 * body->solid.inertia[0][0] / M_PI, 63, 1e-7);
+      g_assert_cmpfloat_with_epsilon(1e15 * body->solid.inertia[1][1] / M_PI, 36.02, 1e-7);
+    }
+  }
+}
+
 // Lines drawn twice, also in part and the other way round, lines of no length, gaps, and circles
 // that touch the axis.
 static void test_untidy(void) {
@@ -370,6 +445,7 @@ static void test_units(void) {
     if (i % 2 == 0) {
       g_string_replace(dxf, "\n", "", 0);
     }
+    g_string_append(dxf, i == 1 ? "\n\n\x1a" : ""); // behind the end
     g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
     const SbCadBody *body = cad->bodies->pdata[0];
     g_test_message("%s", cad->unit);
@@ -387,6 +463,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/coordinates", test_coordinates);
   g_test_add_func("/cad/spline-corners", test_spline_corners);
   g_test_add_func("/cad/left-out", test_left_out);
+  g_test_add_func("/cad/centre-line", test_centre_line);
+  g_test_add_func("/cad/cavities", test_cavities);
   g_test_add_func("/cad/untidy", test_untidy);
   g_test_add_func("/cad/units", test_units);
   return g_test_run();

@@ -177,6 +177,15 @@ static void test_mesh_refused(void) {
     g_assert_nonnull(chosen);
   }
   g_clear_error(&error);
+  // The part is there twice.
+  g_autoptr(GByteArray) twice = shaft_mesh(1, false);
+  const guint32 facets = 2 * (twice->data[80] + 256U * twice->data[81]);
+  g_autofree guint8 *again = g_memdup2(twice->data + 84, twice->len - 84);
+  g_byte_array_append(twice, again, twice->len - 84);
+  memcpy(twice->data + 80, &facets, 4);
+  g_assert_null(parse_mesh(twice, &none, &error));
+  g_assert_nonnull(strstr(error->message, "or one is there twice (export each by itself)"));
+  g_clear_error(&error);
   // A facet is missing: open.
   const guint32 fewer = slotted->data[80] - 1U + 256U * slotted->data[81];
   memcpy(slotted->data + 80, &fewer, 4);

@@ -106,6 +106,7 @@ static void test_refused(void) {
                {{scan_path, "--unit", "kg"}, "--unit"},
                {{scan_path, "--unit", "nm"}, "states its own units"},
                {{scan_path, "--channel", "7"}, "no channel 7"},
+               {{scan_path, "--spacing", "1e-13m"}, "ring.gwy: the distance of columns"},
                {{scan_path, "--scene", "x.scene"}, "requires --output"},
                {{cli.scene}, "thesis-cycle.scene: "}};
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {

@@ -272,6 +272,20 @@ static void test_habits(void) {
        "\"Raw Data\"\n\"Time\",\"Extension\",\"Load\"\n\"(s)\",\"(mm)\",\"(N)\"\n",
        "\"@t\",\"@x\",\"@f\"\n", "\nResults\nNo,Peak,Mean\n1,900.0,800.0\n2,900.0,1.5\n", '.', 1,
        1},
+      // The same without blank lines, with cells between blanks, and a limit that was reached.
+      {"No.,Max Load (N),Ext (mm)\n1,35.1,16.2\nTime (s),Ext (mm),Load (N)\n", "@t,@x,@f\n",
+       "OVER,OVER,OVER\n,,\nNo,Peak (N),Ext (mm)\n1,900.0,800.0\n", '.', 1, 1},
+      {"No. Peak (N) Ext (mm)\n1 35.1 16.2\nTime (s) Ext (mm) Load (N)\n", "@t @x @f\n",
+       "end of test\n", '.', 1, 1},
+      // No value in the last column of the first row.
+      {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
+      {"Time (s),Ext (mm),Load (N)\n0.00,0.0,OVER\n", "@t,@x,@f\n", "", '.', 1, 1},
+      // A remark behind the unit; letters and brackets of full width, in Chinese.
+      {"Time (s) (abs),Ext (mm) (LVDT),Load (N) (Cell 1)\n", "@t,@x,@f\n", "", '.', 1, 1},
+      {"\u65f6\u95f4\uff08\uff53\uff09,\u4f4d\u79fb\uff08mm\uff09,\u529b\uff08N\uff09\n",
+       "@t,@x,@f\n", "", '.', 1, 1},
+      {"\u65f6\u95f4,\u4f4d\u79fb,\u8bd5\u9a8c\u529b\n\u79d2,\u6beb\u7c73,\u5343\u514b\u529b\n",
+       "@t,@x,@f\n", "", '.', 1 / 9.80665, 1},
       // Gram-force, inches by their sign, doubled ends of lines.
       {"Distance (\"),Force (g),Time (s)\r\r\n", "@x,@f,@t\r\r\n", "", '.', 1 / 9.80665e-3,
        1 / 25.4},
@@ -598,7 +612,7 @@ static void test_numbers(void) {
 
 // The message names the first line that is not a row, not a damaged row before it.
 static void test_left_line(void) {
-  static const char text[] = "a;b\n1;2\n1;3\n1;\0002\n3;4\nabc;def\n5;6\n";
+  static const char text[] = "a;b\n1;2\n1;3\n1;\0002\n3;4\nabc;\n5;6\n";
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(SbTextTable) table = sb_text_table_parse(text, sizeof text - 1, NULL, "x", issues);
   g_assert_nonnull(table);
@@ -608,7 +622,7 @@ static void test_left_line(void) {
   g_assert_cmpuint(rows.damaged, ==, 1);
   g_assert_cmpuint(rows.skipped, ==, 1);
   g_assert_cmpint(rows.left_line, ==, 6);
-  g_assert_cmpstr(rows.left_text, ==, "abc;def");
+  g_assert_cmpstr(rows.left_text, ==, "abc;");
   g_free(value[0]);
   g_free(value[1]);
   g_free(rows.left_text);

@@ -352,7 +352,7 @@ static void test_sdf(void) {
   GString *text = matrix(format, "\r\n", '.', "BAD");
   g_string_append(text, "*\r\n");
   assert_text(text, &plain, &h);
-  assert_refused(text->str, text->len - 40, &plain, "is cut short");
+  assert_refused(text->str, text->len - 40, &plain, "the header announces 20 x 17");
   g_string_free(text, TRUE);
   // Binary, 32-bit integers.
   GByteArray *bytes = g_byte_array_new();
@@ -373,6 +373,15 @@ static void test_sdf(void) {
   assert_same(&scan, &h, 1e-20);
   sb_scan_clear(&scan);
   assert_cut_refused(bytes);
+  // Of double precision, whose end marks missing points.
+  g_byte_array_set_size(bytes, sizeof head);
+  bytes->data[79] = 7;
+  for (int i = 0; i < COLUMNS * ROWS; i++) {
+    put_double(bytes, isnan(height[i]) ? -DBL_MAX : 1e9 * height[i]);
+  }
+  parse(&scan, bytes, &plain);
+  assert_same(&scan, &h, 1e-20);
+  sb_scan_clear(&scan);
   g_byte_array_unref(bytes);
 }
 
@@ -425,6 +434,73 @@ static void test_headers(void) {
   assert_text(linked, &plain, &h);
   g_string_free(text, TRUE);
   g_string_free(linked, TRUE);
+}
+
+// Lengths with and without units, factors by any name between separators, and profiles of one
+// column or with units in two places. What is not clear is refused.
+static void test_lengths(void) {
+  SbHeights h = written();
+  static const struct {
+    const char *header, *separator;
+  } headers[] = {
+      {"Width: 20\nHeight: 17\nX step: 0.5 um\nY step: 2 um\nZ unit: nm\n", " "},
+      {"Width: 20 px\nHeight: 17 px\nX range: 10 um\nY range: 34 um\nZ unit: nm\n", " "},
+      {"X size: 20\nY size: 17\nX pixel size: 0.5 um\nY pixel size: 2 um\nZ unit: nm\n", " "},
+      {"X size\t10 um\nY size\t34 um\nZ unit\tum\nZ factor\t0.001\n", "\t"},
+      {"X size;10;um\nY size;34;um\nZ unit;um\nHeight scale;0.001\n", "\t"},
+      {"Width 10 um\nHeight 34 um\nZ unit: um\nScaling factor 0.001\n", " "},
+      {"Width: 10 um\nHeight: 34 um\nZ unit: um\n\xc3\x89"
+       "chelle Z: 0.001\n",
+       "\t"},
+      {"Width: 10 um\nHeight: 34 um\nZ unit: um\nVertical scaling = 0.001\n", "\t"},
+      {"Width: 10 um\nHeight: 34 um\nZ unit: nm\nX scale factor: 3\nZoom factor: 50\n", "\t"},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(headers); i++) {
+    GString *text = matrix(headers[i].header, headers[i].separator, '.', "nan");
+    assert_text(text, &plain, &h);
+    g_string_free(text, TRUE);
+  }
+  GString *text = matrix("Width: 10 um\nHeight: 34 um\nZ unit: nm\nGain: 3\n", " ", '.', "nan");
+  assert_refused(text->str, text->len, &plain,
+                 "scan: line 4: it is not clear whether \"gain\" multiplies the heights");
+  assert_chosen(text->str, text->len, &plain, "unit", "nm\num\nmm");
+  assert_text(text, &(SbScanChoices){.unit = 1e-9}, &h);
+  g_string_free(text, TRUE);
+  // Bare sizes that are the numbers of points are no lengths.
+  text = matrix("Width: 20\nHeight: 17\nZ unit: nm\n", " ", '.', "nan");
+  assert_refused(text->str, text->len, &plain, "the distance of its points");
+  g_string_free(text, TRUE);
+  // Positions above the heights; an inclined plane has none.
+  text = g_string_new("");
+  for (int i = 0; i < 3; i++) {
+    for (int j = 0; j < COLUMNS; j++) {
+      g_string_append_printf(text, "%.1f%s", i == 0 ? 0.5 * j : i * j % 7,
+                             j + 1 < COLUMNS ? "\t" : "\n");
+    }
+  }
+  assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
+                 "its first row has even steps");
+  g_string_free(text, TRUE);
+  h.rows = 1;
+  static const char *const profiles[] = {"Z unit: nm\nx (um);z\n",
+                                         "Z factor: 1 nm\nx (um);z (digit)\n",
+                                         "dx: 0.5 um\nZ unit: nm\n", "Pas: 0.5 um\nz (nm)\n"};
+  for (size_t i = 0; i < G_N_ELEMENTS(profiles) + 1; i++) {
+    const bool two = i == G_N_ELEMENTS(profiles);
+    text = g_string_new(two ? "Z unit: um\nx (um);z (nm)\n" : profiles[i]);
+    for (int j = 0; j < COLUMNS; j++) {
+      if (i < 2 || two) {
+        g_string_append_printf(text, "%.2f;", 0.5 * j);
+      }
+      g_string_append_printf(text, "%.3f\n", 1e9 * height[j]);
+    }
+    if (two) {
+      assert_refused(text->str, text->len, &plain, "states two units of its heights");
+    } else {
+      assert_text(text, &plain, &h);
+    }
+    g_string_free(text, TRUE);
+  }
 }
 
 static void test_points(void) {
@@ -541,6 +617,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/scan/commas", test_commas);
   g_test_add_func("/scan/sdf", test_sdf);
   g_test_add_func("/scan/headers", test_headers);
+  g_test_add_func("/scan/lengths", test_lengths);
   g_test_add_func("/scan/points", test_points);
   g_test_add_func("/scan/profile", test_profile);
   g_test_add_func("/scan/numbers", test_numbers);

@@ -224,10 +224,17 @@ static void test_numbers(void) {
                    0);
   refuse(text->str, text->len, "mm", "too long");
   g_string_free(text, TRUE);
+  // Normals are not used: a facet without area may have none.
+  text = text_box();
+  g_string_replace(text, "normal 0 0 0", "normal nan -nan(ind) 1.#QNAN", 3);
+  g_assert_true(sb_stl_parse(&stl, text->str, text->len, "mm", "box.stl", &error));
+  weigh(&stl, 1e-3);
+  sb_stl_clear(&stl);
+  g_string_free(text, TRUE);
   static const char *const none[] = {"0x1", "0X1p2", "1e",  "1e+",  "nan",
                                      "inf", ".",     "1,5", "1e999"};
   for (size_t i = 0; i < G_N_ELEMENTS(none); i++) {
-    char *wrong = g_strdup_printf("solid x\n facet normal 0 0 %s outer loop", none[i]);
+    char *wrong = g_strdup_printf("solid x\n facet normal 0 0 1 outer loop vertex 0 0 %s", none[i]);
     refuse(wrong, strlen(wrong), "mm", "a number expected");
     g_free(wrong);
   }

@@ -48,19 +48,17 @@ bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind ki
   const bool good = sb_scan_allocate(out, columns, rows, error);
   for (guint64 i = 0; good && i < columns * rows; i++) {
     const double value = number_at(bytes.at + i * sizes[kind], kind);
-    out->heights.z[i] = value == missing ? NAN : scale * value;
+    out->heights.z[i] = value == missing || fabs(value) > 3.4e38 ? NAN : scale * value;
   }
   return good;
 }
 
 double sb_scan_length(const char *unit) {
   g_autofree char *name = g_strstrip(g_strdelimit(g_strdup(unit), "[]()", ' '));
-  // As old instruments write it.
-  if (g_ascii_strcasecmp(name, "mkm") == 0 || strcmp(name, "\xb5m") == 0) {
-    return 1e-6;
-  }
   double value = 0;
-  return *name != '\0' && sb_unit_scale(&value, name, "m", "µm", NULL) ? value : 0;
+  unit = g_utf8_validate(name, -1, NULL) ? sb_text_table_unit(name) : NULL;
+  unit = unit != NULL ? unit : name;
+  return *name != '\0' && sb_unit_scale(&value, unit, "m", "µm", NULL) ? value : 0;
 }
 
 static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,

@@ -19,12 +19,12 @@ typedef struct {
   gsize count;
 } Axis;
 
-static Axis find_axis(const SbScanText *text, gsize column) {
-  const gsize rows = text->matrix.rows;
+// Of the `rows` numbers from `first`, each `stride` behind the last.
+static Axis find_axis(const SbScanText *text, gsize first, gsize stride, gsize rows) {
   g_autofree double *value = g_try_new(double, rows);
   bool good = value != NULL;
   for (gsize i = 0; good && i < rows; i++) {
-    value[i] = at(text, i, column);
+    value[i] = g_array_index(text->matrix.value, double, first + stride * i);
     good = isfinite(value[i]);
   }
   if (!good) {
@@ -49,19 +49,29 @@ static Axis find_axis(const SbScanText *text, gsize column) {
 
 bool sb_scan_is_grid(const SbScanText *text) {
   // Of a matrix of three columns the first two do not repeat themselves evenly.
-  const Axis x = find_axis(text, 0), y = find_axis(text, 1);
-  return x.count > 1 && y.count > 1 && x.count < text->matrix.rows && y.count < text->matrix.rows &&
-         (double)x.count * (double)y.count <= 4.0 * (double)text->matrix.rows;
+  const gsize rows = text->matrix.rows;
+  const Axis x = find_axis(text, 0, 3, rows), y = find_axis(text, 1, 3, rows);
+  return x.count > 1 && y.count > 1 && x.count < rows && y.count < rows &&
+         (double)x.count * (double)y.count <= 4.0 * (double)rows;
 }
 
-bool sb_scan_is_placed(const SbScanText *text) {
-  const gsize rows = text->matrix.rows; // of which the first one may have no position
-  return rows > 8 && text->matrix.ragged == 0 && find_axis(text, 0).count + 1 >= rows;
+const char *sb_scan_placed(const SbScanText *text, bool announced) {
+  const gsize rows = text->matrix.rows, columns = text->matrix.columns;
+  if (text->matrix.ragged > 0) {
+    return NULL;
+  }
+  // One place may be void, where the row and the column of positions meet.
+  const bool column = rows > 8 && find_axis(text, 0, columns, rows).count + 1 >= rows;
+  const bool row = columns > 8 && rows > 1 && !announced &&
+                   find_axis(text, 0, 1, columns).count + 1 >= columns &&
+                   find_axis(text, columns, 1, columns).count + 1 < columns;
+  return column ? "column" : row ? "row" : NULL;
 }
 
 bool sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
                   GError **error) {
-  const Axis x = find_axis(text, 0), y = find_axis(text, 1);
+  const gsize rows = text->matrix.rows;
+  const Axis x = find_axis(text, 0, 3, rows), y = find_axis(text, 1, 3, rows);
   if (!sb_scan_allocate(out, x.count, y.count, error)) {
     return false;
   }

@@ -5,9 +5,9 @@
 #include "app/data/scan/scan_private.h"
 
 #include <math.h>
-#include <stdlib.h>
+#include <stdio.h>
 
-enum { CHANNELS_MAX = 1024 };
+enum { CHANNELS_MAX = 1024, COMPONENTS_MAX = 100000 };
 
 typedef struct {
   const char *name;
@@ -131,65 +131,49 @@ static bool read_field(Field *out, const Component *field, GError **error) {
 
 // ---- Channels ----
 
-typedef struct {
-  long id;
-  Component data, mask;
-  const char *title;
-} Channel;
-
-static Channel *channel_of(GArray *channels, long id) {
-  for (guint i = 0; i < channels->len; i++) {
-    if (g_array_index(channels, Channel, i).id == id) {
-      return &g_array_index(channels, Channel, i);
-    }
-  }
-  if (channels->len == CHANNELS_MAX) {
-    return NULL;
-  }
-  g_array_append_val(channels, ((Channel){.id = id}));
-  return &g_array_index(channels, Channel, channels->len - 1);
+// Finds "/ID/NAME" in the container.
+static bool find_of(Component *out, const Component *container, char kind, long id,
+                    const char *name) {
+  g_autofree char *path = g_strdup_printf("/%ld/%s", id, name);
+  return find(out, container, kind, path);
 }
 
-// "/3/data", "/3/data/title", "/3/mask".
-static void take_channel(GArray *channels, const Component *each) {
-  if (each->name[0] != '/' || !g_ascii_isdigit(each->name[1])) {
-    return;
-  }
-  char *rest = NULL;
-  const long id = strtol(each->name + 1, &rest, 10);
-  const bool field = g_strcmp0(each->object, "GwyDataField") == 0;
-  const bool data = field && strcmp(rest, "/data") == 0, mask = field && strcmp(rest, "/mask") == 0;
-  const bool title = each->kind == 's' && strcmp(rest, "/data/title") == 0;
-  Channel *channel = data || mask || title ? channel_of(channels, id) : NULL;
-  if (channel != NULL && title) {
-    channel->title = (const char *)each->value;
-  } else if (channel != NULL) {
-    *(data ? &channel->data : &channel->mask) = *each;
-  }
-}
-
-// The one that is requested, else the only one of heights.
-static const Channel *choose(const GArray *channels, const char *wanted, GError **error) {
-  const Channel *found = NULL;
-  int count = 0;
-  Field field;
+// Finds the data of the channel that is requested, else of the only one of heights, and the title,
+// whose value is NULL if there is none. Returns the channel's number; -1 with an error.
+static long choose(Component *data, Component *title, const Component *container,
+                   const char *wanted, GError **error) {
+  SbScanBytes inside = {container->value, container->value + container->count};
+  int count = 0, components = 0, fields = 0;
+  long found = -1;
   g_autoptr(GString) list = g_string_new(NULL), fitting = g_string_new(NULL);
-  for (guint i = 0; i < channels->len; i++) {
-    const Channel *channel = &g_array_index(channels, Channel, i);
-    g_autofree char *number = g_strdup_printf("%ld", channel->id);
-    if (channel->data.value == NULL) {
+  while (inside.at < inside.end) {
+    Component each, own;
+    Field field;
+    long id = 0;
+    int end = 0;
+    if (!take_component(&each, &inside) || components++ > COMPONENTS_MAX) {
+      sb_app_error_input(error, "is cut short, or no container of Gwyddion's");
+      return -1;
+    }
+    if (g_strcmp0(each.object, "GwyDataField") != 0 || fields > CHANNELS_MAX ||
+        sscanf(each.name, "/%ld/data%n", &id, &end) != 1 || id < 0 || end == 0 ||
+        each.name[end] != '\0') {
       continue;
     }
-    if (wanted != NULL
-            ? strcmp(number, wanted) == 0 || g_strcmp0(channel->title, wanted) == 0
-            : read_field(&field, &channel->data, NULL) && strcmp(field.unit_z, "m") == 0) {
+    fields++;
+    (void)find_of(&own, container, 's', id, "data/title");
+    g_autofree char *number = g_strdup_printf("%ld", id);
+    const char *text = (const char *)own.value;
+    if (wanted != NULL ? strcmp(number, wanted) == 0 || g_strcmp0(text, wanted) == 0
+                       : read_field(&field, &each, NULL) && strcmp(field.unit_z, "m") == 0) {
       g_string_append_printf(fitting, "%s%s", count++ > 0 ? "\n" : "", number);
-      found = channel;
+      found = id;
+      *data = each;
+      *title = own;
     }
     if (list->len < 200) {
       g_string_append_printf(list, "%s%s", list->len > 0 ? ", " : "", number);
-      g_string_append_printf(list, channel->title != NULL ? " \"%s\"" : "%s",
-                             channel->title != NULL ? channel->title : "");
+      g_string_append_printf(list, text != NULL ? " \"%s\"" : "%s", text != NULL ? text : "");
     }
   }
   if (count > 1) {
@@ -201,12 +185,12 @@ static const Channel *choose(const GArray *channels, const char *wanted, GError 
     sb_app_error_input(error, "has no channel %s (there are %s)",
                        wanted != NULL ? wanted : "of heights", list->str);
   }
-  return count == 1 ? found : NULL;
+  return count == 1 ? found : -1;
 }
 
-static bool apply_mask(SbScan *out, const Channel *channel, GError **error) {
+static bool apply_mask(SbScan *out, const Component *field, GError **error) {
   Field mask;
-  if (!read_field(&mask, &channel->mask, error)) {
+  if (!read_field(&mask, field, error)) {
     return false;
   }
   if (mask.rows != out->heights.rows || mask.columns != out->heights.columns) {
@@ -227,9 +211,9 @@ static bool apply_mask(SbScan *out, const Channel *channel, GError **error) {
   return true;
 }
 
-static bool read_channel(SbScan *out, const Channel *channel, bool masked, GError **error) {
+static bool read_channel(SbScan *out, const Component *channel, GError **error) {
   Field field;
-  if (!read_field(&field, &channel->data, error)) {
+  if (!read_field(&field, channel, error)) {
     return false;
   }
   const double xy = sb_scan_length(field.unit_xy), z = sb_scan_length(field.unit_z);
@@ -244,8 +228,7 @@ static bool read_channel(SbScan *out, const Channel *channel, bool masked, GErro
   }
   out->heights.dx = xy * field.width / (double)field.columns;
   out->heights.dy = xy * field.height / (double)field.rows;
-  out->title = g_strdup(channel->title);
-  return !masked || apply_mask(out, channel, error);
+  return true;
 }
 
 bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
@@ -254,22 +237,16 @@ bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   bytes.at += 4;
   SbScanBytes content;
   const char *class = take_object(&bytes, &content);
-  if (class != NULL && strcmp(class, "GwyContainer") != 0) {
-    return sb_app_error_input(error, "contains no GwyContainer");
+  if (g_strcmp0(class, "GwyContainer") != 0) {
+    return sb_app_error_input(error, "contains no GwyContainer, or is cut short");
   }
-  g_autoptr(GArray) channels = g_array_new(FALSE, FALSE, sizeof(Channel));
-  bool whole = class != NULL;
-  while (whole && content.at < content.end) {
-    Component each;
-    whole = take_component(&each, &content);
-    if (whole) {
-      take_channel(channels, &each);
-    }
+  const Component container = {.value = content.at, .count = (guint64)(content.end - content.at)};
+  Component data, title, mask;
+  const long id = choose(&data, &title, &container, choices->channel, error);
+  if (id < 0 || !read_channel(out, &data, error)) {
+    return false;
   }
-  if (!whole) {
-    return sb_app_error_input(error, "is cut short, or no container of Gwyddion's");
-  }
-  const Channel *channel = choose(channels, choices->channel, error);
-  return channel != NULL &&
-         read_channel(out, channel, channel->mask.value != NULL && !choices->ignore_mask, error);
+  out->title = g_strdup((const char *)title.value);
+  return choices->ignore_mask || !find_of(&mask, &container, 'o', id, "mask") ||
+         g_strcmp0(mask.object, "GwyDataField") != 0 || apply_mask(out, &mask, error);
 }

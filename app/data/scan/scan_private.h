@@ -42,8 +42,8 @@ typedef enum {
 } SbScanKind;
 
 // Takes a grid from the first of `bytes`, row after row: heights are `scale` times the numbers; the
-// number `missing` (NaN: none) is a missing point. Returns false with an error of
-// sb_scan_allocate(), or if there are too few bytes.
+// number `missing` (NaN: none) and those beyond single precision are missing points. Returns false
+// with an error of sb_scan_allocate(), or if there are too few bytes.
 bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
                        SbScanBytes bytes, double scale, double missing, GError **error);
 
@@ -55,10 +55,13 @@ double sb_scan_length(const char *unit);
 
 // A header line "key = value unit".
 typedef struct {
-  char *key;     // only its letters and digits, small: "Z Unit" is "zunit"
+  char *name;    // the key in small letters, with blanks for marks
+  char *key;     // without blanks: "Z Unit" is "zunit"
   char *value;   // as it is in the file
   double number; // with which the value begins; NaN: none
-  double unit;   // metres of the one in brackets in the key or after a number; 0: no length
+  double unit;   // metres of the one in brackets in the key or after a number; 0: no length; NaN:
+                 // the number is one of points
+  int line;      // from 1
 } SbScanEntry;
 
 // A text file split into the entries of its header and all its numbers.
@@ -78,8 +81,10 @@ bool sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double ve
 // Returns whether the first two of three columns are the coordinates of a grid.
 bool sb_scan_is_grid(const SbScanText *text);
 
-// Returns whether the first column of a matrix has even steps, as positions have and heights not.
-bool sb_scan_is_placed(const SbScanText *text);
+// Returns "column" or "row" if the first one of a matrix has even steps, as positions have and
+// heights not; NULL: neither. A first row is not one of positions if the file has `announced` the
+// number of heights, or if the second one has even steps too, as an inclined plane has.
+const char *sb_scan_placed(const SbScanText *text, bool announced);
 
 // Writes columns x, z (or z alone: dx becomes 0) to a profile, whose heights it allocates.
 // `lateral` is the metres per unit of x, `vertical` those of z. Returns false with an error of

@@ -8,98 +8,45 @@
 #include <math.h>
 
 enum { COLUMNS, ROWS, X_STEP, Y_STEP, Z_STEP, COMPRESSION, TYPE, KEYS };
-enum { HEADER = 81, VERSION = 8 };
+enum { HEADER = 81 };
 
-#define BLANKS " \t\r\n\v\f"
-
-// Keys, and the places of their values in the binary header.
-static const struct {
-  const char *name;
-  gsize at, size;
-} keys[KEYS] = {{"NumPoints", 42, 2}, {"NumProfiles", 44, 2}, {"Xscale", 46, 8},  {"Yscale", 54, 8},
-                {"Zscale", 62, 8},    {"Compression", 78, 1}, {"DataType", 79, 1}};
-
-// Skips the characters `skipped`, returns a copy of the text from there to the first of the
-// characters `ends`, and moves to that. Empty at the end.
-static char *take_sdf_text(SbScanBytes *bytes, const char *skipped, const char *ends) {
-  while (bytes->at < bytes->end && *bytes->at != '\0' && strchr(skipped, *bytes->at) != NULL) {
-    bytes->at++;
-  }
-  const guchar *start = bytes->at;
-  while (bytes->at < bytes->end && (*bytes->at == '\0' || strchr(ends, *bytes->at) == NULL)) {
-    bytes->at++;
-  }
-  return g_strndup((const char *)start, MIN((gsize)(bytes->at - start), 40));
-}
-
-// Reads the lines "Key = value" up to the one that is "*".
-static void read_keys(double *value, SbScanBytes *bytes) {
-  for (bool more = true; more;) {
-    g_autofree char *key = take_sdf_text(bytes, BLANKS "=", BLANKS "=");
-    more = *key != '\0' && *key != '*';
-    g_autofree char *text = more ? take_sdf_text(bytes, " \t=", "\r\n") : NULL;
-    for (int k = 0; k < KEYS && more; k++) {
-      if (g_ascii_strcasecmp(key, keys[k].name) == 0) {
-        (void)sb_text_table_number_at(&value[k], text, '.');
-      }
-    }
-  }
-}
-
-static bool read_text(SbScan *out, SbScanBytes bytes, const double *value, GError **error) {
-  const guint64 points = (guint64)value[COLUMNS] * (guint64)value[ROWS];
-  if (points > (guint64)(bytes.end - bytes.at) / 2 + 1) {
-    return sb_app_error_input(error, "is cut short: %.0f x %.0f points announced", value[COLUMNS],
-                              value[ROWS]);
-  }
-  if (!sb_scan_allocate(out, (guint64)value[COLUMNS], (guint64)value[ROWS], error)) {
-    return false;
-  }
-  for (guint64 i = 0; i < points; i++) {
-    double number = NAN;
-    g_autofree char *word = take_sdf_text(&bytes, BLANKS, BLANKS);
-    if (*word == '\0' || *word == '*') {
-      return sb_app_error_input(
-          error, "is cut short: %" G_GUINT64_FORMAT " points of %" G_GUINT64_FORMAT, i, points);
-    }
-    if (sb_text_table_number_at(&number, word, '.') == 0 && g_ascii_strcasecmp(word, "BAD") != 0 &&
-        g_ascii_strcasecmp(word, "NaN") != 0) {
-      return sb_app_error_input(error, "numbers expected, not \"%s\"", word);
-    }
-    out->heights.z[i] = number * value[Z_STEP];
-  }
-  return true;
+// The text form: a matrix with a header (scan_text_keys.def), without the line between them and
+// what follows the heights.
+static bool read_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
+                      GError **error) {
+  g_autofree char *text = g_strndup((const char *)bytes.at, (gsize)(bytes.end - bytes.at));
+  g_auto(GStrv) parts = g_strsplit(text, "\n*", 3);
+  g_autofree char *both = g_strconcat(parts[0], "\n", parts[1], NULL);
+  const guchar *start = (const guchar *)both;
+  return sb_scan_parse_text(out, (SbScanBytes){start, start + strlen(both)}, choices, error);
 }
 
 bool sb_scan_parse_sdf(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
                        GError **error) {
-  const bool text = *bytes.at == 'a', whole = bytes.end - bytes.at >= HEADER;
+  static const gsize place[KEYS] = {42, 44, 46, 54, 62, 78, 79};
+  static const gsize size[KEYS] = {2, 2, 8, 8, 8, 1, 1};
   double value[KEYS];
+  const bool text = *bytes.at == 'a', good = text && read_text(out, bytes, choices, error);
   out->format = "surface data file";
-  for (int k = 0; k < KEYS; k++) {
-    const guchar *p = bytes.at + keys[k].at;
-    value[k] = text || !whole      ? NAN
-               : keys[k].size == 8 ? sb_bytes_double(p)
-               : keys[k].size == 2 ? sb_bytes_u16(p)
-                                   : *p;
-  }
-  bytes.at += text || !whole ? VERSION : HEADER;
   if (text) {
-    read_keys(value, &bytes);
+    return good;
   }
-  if (!(value[COLUMNS] >= 1 && value[ROWS] >= 1 && value[COLUMNS] <= 65535 &&
-        value[ROWS] <= 65535 && isfinite(value[Z_STEP]) && value[Z_STEP] != 0)) {
+  if (bytes.end - bytes.at < HEADER) {
+    return sb_app_error_input(error, "is cut short: no header of %d bytes", HEADER);
+  }
+  for (int k = 0; k < KEYS; k++) {
+    const guchar *p = bytes.at + place[k];
+    value[k] = size[k] == 8 ? sb_bytes_double(p) : size[k] == 2 ? sb_bytes_u16(p) : *p;
+  }
+  bytes.at += HEADER;
+  if (!(value[COLUMNS] >= 1 && value[ROWS] >= 1 && isfinite(value[Z_STEP]) && value[Z_STEP] != 0)) {
     return sb_app_error_input(error, "has no NumPoints, NumProfiles or Zscale");
   }
-  const bool known = text || (value[TYPE] >= 0 && value[TYPE] < SB_SCAN_KINDS);
-  if (!known || value[COMPRESSION] > 0) {
+  if (value[TYPE] >= SB_SCAN_KINDS || value[COMPRESSION] > 0) {
     return sb_app_error_input(error, "has compressed data or an unknown data type");
   }
   out->heights.dx = value[X_STEP];
   out->heights.dy = value[Y_STEP];
-  if (text) {
-    return read_text(out, bytes, value, error);
-  }
   const SbScanKind kind = (SbScanKind)value[TYPE];
   const double least[SB_SCAN_KINDS] = {NAN, NAN, NAN, NAN, G_MININT8, G_MININT16, G_MININT32, NAN};
   return sb_scan_take_grid(out, (guint64)value[COLUMNS], (guint64)value[ROWS], kind, bytes,

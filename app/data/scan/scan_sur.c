@@ -46,9 +46,6 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   if (bits != 16 && bits != 32) {
     return sb_app_error_input(error, "has points of %d bits (allowed 16 or 32)", bits);
   }
-  if (columns < 1 || rows < 1) {
-    return sb_app_error_input(error, "has sizes below 1 in its header");
-  }
   const glong begin = SUR_HEADER + sb_bytes_u16(h + 334) + sb_bytes_u16(h + 336);
   bytes.at += MIN(begin, bytes.end - bytes.at);
   double step = 0;

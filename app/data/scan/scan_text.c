@@ -7,133 +7,173 @@
 
 enum { ENTRIES_MAX = 1000 };
 
+#define SB_SCAN_KEY(name, expression) static const char KEY_##name[] = expression;
+#include "app/data/scan/scan_text_keys.def"
+#undef SB_SCAN_KEY
+
 // ---- Header ----
 
 static void entry_free(gpointer data) {
   SbScanEntry *entry = data;
+  g_free(entry->name);
   g_free(entry->key);
   g_free(entry->value);
   g_free(entry);
 }
 
-// Returns the text in the first brackets, which are removed; empty without. Owned by the caller.
-static char *take_brackets(char *text) {
-  char *open = strpbrk(text, "[(");
-  char *close = open != NULL ? strpbrk(open, "])") : NULL;
-  if (close == NULL) {
-    return g_strdup("");
+// Appends the entry of a header line: "Width: 5 µm", "Z factor;2.5", "Length,64 µm", "ncols 512".
+static void take_entry(GPtrArray *entries, const char *line, int number,
+                       const SbTextTableDialect *dialect) {
+  static const char *const forms[] = {"^(.+?)[=:;|][=:;| ]*(.*)$", "^(.+?),(.*)$",
+                                      "^(.+?) ([-+]?[0-9].*)$", "^(.+?) (.*)$"};
+  g_autofree char *key = NULL, *value = NULL;
+  for (size_t i = 0; i < G_N_ELEMENTS(forms) && key == NULL; i++) {
+    g_autoptr(GRegex) form = g_regex_new(forms[i], 0, 0, NULL);
+    g_autoptr(GMatchInfo) match = NULL;
+    if ((i != 1 || dialect->separator == ',') && g_regex_match(form, line, 0, &match)) {
+      key = g_match_info_fetch(match, 1);
+      value = g_match_info_fetch(match, 2);
+    }
   }
-  char *inside = g_strstrip(g_strndup(open + 1, (gsize)(close - open - 1)));
-  memmove(open, close + 1, strlen(close + 1) + 1);
-  return inside;
-}
-
-// Appends the entry of a header line: "Width: 5 µm", "x-pixels = 512", "ncols 512", "Length,64 µm".
-static void take_entry(GPtrArray *entries, const char *line, const SbTextTableDialect *dialect) {
-  const char separator[] = {dialect->separator, '\0'};
-  gsize at = strcspn(line, "=:");
-  at = line[at] == '\0' ? strcspn(line, separator) : at;
-  at = line[at] == '\0' ? strcspn(line, " ") : at;
-  if (line[at] == '\0' || at == 0) {
+  if (key == NULL) {
     return;
   }
-  g_autofree char *key = g_strndup(line, at);
   SbScanEntry *entry = g_new0(SbScanEntry, 1);
-  g_autofree char *unit = take_brackets(key);
+  char *bracket = key + strcspn(key, "[(");
+  entry->unit = *bracket != '\0' ? sb_scan_length(bracket) : 0;
+  *bracket = entry->unit > 0 ? '\0' : *bracket;
   g_autofree char *folded = g_utf8_strdown(key, -1);
-  g_autoptr(GRegex) other = g_regex_new("[^\\pL\\pN]", 0, 0, NULL);
-  entry->key = g_regex_replace_literal(other, folded, -1, 0, "", 0, NULL);
-  entry->value = g_strstrip(g_strdup(line + at + 1));
-  const gsize number = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
-  entry->number = number > 0 ? entry->number : NAN;
-  entry->unit = sb_scan_length(number > 0 && *unit == '\0' ? entry->value + number : unit);
+  entry->line = number;
+  g_autoptr(GRegex) marks = g_regex_new("[^\\pL\\pN]+", 0, 0, NULL);
+  entry->name = g_strstrip(g_regex_replace_literal(marks, folded, -1, 0, " ", 0, NULL));
+  g_auto(GStrv) words = g_strsplit(entry->name, " ", -1);
+  entry->key = g_strjoinv("", words);
+  entry->value = g_strstrip(g_strdelimit(g_strdup(value), ";|", ' '));
+  const gsize end = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
+  entry->number = end > 0 ? entry->number : NAN;
+  const char *rest = entry->value + end + strspn(entry->value + end, " ");
+  if (end > 0 && entry->unit == 0) { // "32 px", "32 points"
+    const double unit = sb_scan_length(rest);
+    entry->unit = unit == 0 && g_ascii_tolower(*rest) == 'p' ? NAN : unit;
+  }
   g_ptr_array_add(entries, entry);
 }
 
-// Returns the entry of the first of the patterns (separated by |, * for any letters) that the
-// header has; an empty one without.
-static const SbScanEntry *find_entry(const SbScanText *text, const char *patterns) {
-  static const SbScanEntry none = {(char *)"", (char *)"", NAN, 0};
-  g_auto(GStrv) each = g_strsplit(patterns, "|", -1);
-  for (char **pattern = each; *pattern != NULL; pattern++) {
-    for (guint i = 0; i < text->entries->len; i++) {
-      const SbScanEntry *entry = text->entries->pdata[i];
-      if (g_pattern_match_simple(*pattern, entry->key)) {
-        return entry;
-      }
+// Returns the first entry that a key matches, an empty one without; of a `length` the first with a
+// unit, else the first number that is not one of points.
+static const SbScanEntry *find_entry(const SbScanText *text, const char *key, bool length) {
+  static const SbScanEntry none = {(char *)"", (char *)"", (char *)"", NAN, 0, 0};
+  const SbScanEntry *found = &none;
+  for (guint i = 0; i < text->entries->len; i++) {
+    const SbScanEntry *entry = text->entries->pdata[i];
+    const bool fits = g_regex_match_simple(key, entry->key, 0, 0);
+    if (fits && (!length || entry->unit > 0)) {
+      return entry;
     }
+    const bool bare = isfinite(entry->number) && entry->unit == 0;
+    found = fits && bare && found == &none ? entry : found;
   }
-  return &none;
+  return found;
 }
 
 // What the header says of a matrix; NaN or 0 where it does not.
 typedef struct {
   double columns, rows;
-  double width, height; // with their units, or in the unit of lengths (`bare`)
-  double step_x, step_y;
+  double step[2];           // of x and y [m], or in the unit of lengths (`bare`)
+  bool bare[2];             //
   double missing;           // value of missing points, as written
   double vertical, lateral; // units [m]
   double factor;            // of written heights; NaN: none
-  bool bare;
+  double usual;             // unit of the format [m]; 0: none
 } Header;
 
-// A length by itself where it has a unit, else in units of lengths.
-static double length_of(const SbScanEntry *entry, bool *bare) {
-  *bare |= !isnan(entry->number) && entry->unit == 0;
-  return entry->unit > 0 ? entry->number * entry->unit : entry->number;
+// Takes the step along an axis, 0 or 1, or the size divided by the number of points (NaN: not by
+// the size). What has a unit takes precedence. A size without a unit that equals the number of
+// points states that number.
+static void take_step(Header *h, const SbScanText *text, int axis, double count) {
+  const SbScanEntry *step = find_entry(text, axis == 0 ? KEY_STEP_X : KEY_STEP_Y, true);
+  const SbScanEntry *size = find_entry(text, axis == 0 ? KEY_SIZE_X : KEY_SIZE_Y, true);
+  const bool by_size = step->unit == 0 && (size->unit > 0 || isnan(step->number));
+  const SbScanEntry *use = by_size ? size : step;
+  const bool counts = by_size && use->unit == 0 && use->number == count && h->lateral == 0;
+  h->step[axis] = counts ? NAN : use->unit > 0 ? use->number * use->unit : use->number;
+  h->step[axis] /= by_size ? count : 1;
+  h->bare[axis] = isfinite(h->step[axis]) && use->unit == 0;
 }
 
 static Header header_of(const SbScanText *text) {
-#define ANY_STEP "|pixelsize|spacing|schrittweite|pas|passo"
-  Header h = {0};
-  h.columns = find_entry(text, "ncols|xpixels|columns|pixelsx|spalten|colonnes|colonne")->number;
-  h.rows = find_entry(text, "nrows|ypixels|rows|lines|pixelsy|zeilen|lignes|righe")->number;
-  h.step_x = length_of(find_entry(text, "cellsize|dx|xspacing|xstep|xscale" ANY_STEP), &h.bare);
-  h.step_y = length_of(find_entry(text, "cellsize|dy|yspacing|ystep|yscale" ANY_STEP), &h.bare);
-  h.width = length_of(
-      find_entry(text, "xlength|width|xsize|xreal|xrange|breite|largeur|larghezza|anch*"), &h.bare);
-  h.height = length_of(
-      find_entry(text, "ylength|height|ysize|yreal|yrange|höhe|hauteur|altezza|altura|alto"),
-      &h.bare);
-  h.missing = find_entry(text, "nodatavalue|nodata|fehlwert")->number;
-  h.vertical = sb_scan_length(
-      find_entry(text,
-                 "zunit*|valueunit*|heightunit*|unitz|*einheit*wert*|wert*einheit*|*unit*val*|"
-                 "*unid*valor*|einheitz|zeinheit|unitéz|unitàz|unidadz")
-          ->value);
-  h.lateral = sb_scan_length(find_entry(text, "xunit*|lateralunit*|xyunit*|unitxy|unitx|einheitx*|"
-                                              "xeinheit|unitéx*|unitàx*")
-                                 ->value);
-  // A factor of the written heights, with its own unit or in the unit of heights.
-  const SbScanEntry *factor = find_entry(
-      text, "zfactor|zscale|zscaling|heightfactor|heightscale|factor*|scalefactor|*skalierung*|"
-            "höhenfaktor|zfaktor|facteur*|fattore*|*multipl*|bit2nm|*faktor");
-  h.factor = factor->number;
-  h.vertical = factor->unit > 0 && isfinite(h.factor) ? factor->unit : h.vertical;
-  // SPIP's lengths are in nanometres; so are its heights times Bit2nm where no unit is given.
-  if (g_ascii_strcasecmp(find_entry(text, "fileformat")->value, "ASCII") == 0) {
-    const bool bits = strcmp(factor->key, "bit2nm") == 0;
-    h.lateral = h.lateral > 0 ? h.lateral : 1e-9;
-    h.factor = bits && h.vertical > 0 ? NAN : h.factor;
-    h.vertical = bits && h.vertical == 0 ? 1e-9 : h.vertical;
-  }
+  const SbTextTableMatrix *matrix = &text->matrix;
+  Header h = {.columns = find_entry(text, KEY_COLUMNS, false)->number,
+              .rows = find_entry(text, KEY_ROWS, false)->number,
+              .missing = find_entry(text, KEY_MISSING, false)->number,
+              .vertical = sb_scan_length(find_entry(text, KEY_UNIT_Z, false)->value),
+              .lateral = sb_scan_length(find_entry(text, KEY_UNIT_XY, false)->value)};
+  // SPIP's lengths are in nanometres, those of surface data files in metres.
+  h.usual = g_ascii_strcasecmp(find_entry(text, KEY_FORMAT, false)->value, "ASCII") == 0 ? 1e-9
+            : isfinite(find_entry(text, KEY_METRES, false)->number)                      ? 1
+                                                                                         : 0;
+  h.lateral = h.lateral > 0 ? h.lateral : h.usual;
+  // A size may be one step more than the distance between the ends of a profile.
+  const double columns = h.columns >= 1 ? h.columns : (double)matrix->columns;
+  take_step(&h, text, 0, matrix->columns == 1 ? NAN : columns);
+  take_step(&h, text, 1, h.rows >= 1 ? h.rows : (double)matrix->rows);
   return h;
 }
 
-// Units by precedence: the caller's, the file's, for lengths the caller's of heights. The caller's
-// unit is that of the numbers as written: it replaces the header's factor too, which a note states.
-// False with an error where one is needed and nowhere.
+// Takes the factor of written heights, with its own unit or in the unit of heights. False with an
+// error if a line may state one, unless the caller specified the unit of the written numbers.
+static bool take_factor(Header *h, const SbScanText *text, const SbScanChoices *choices,
+                        GError **error) {
+  const SbScanEntry *factor = NULL, *doubt = NULL;
+  for (guint i = 0; i < text->entries->len && factor == NULL; i++) {
+    const SbScanEntry *entry = text->entries->pdata[i];
+    if (isfinite(entry->number) && entry->number != 0 &&
+        !g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
+      factor = g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
+      doubt = doubt == NULL && entry->number != 1 &&
+                      g_regex_match_simple(KEY_PERHAPS, entry->name, 0, 0)
+                  ? entry
+                  : doubt;
+    }
+  }
+  if (factor == NULL && doubt != NULL && choices->unit == 0) {
+    return sb_app_error_choose(error, "unit", "nm\num\nmm",
+                               "line %d: it is not clear whether \"%s\" multiplies the heights, "
+                               "which decides the unit of the numbers",
+                               doubt->line, doubt->name);
+  }
+  h->factor = factor != NULL ? factor->number : NAN;
+  h->vertical = factor != NULL && factor->unit > 0 ? factor->unit : h->vertical;
+  // The factors of these formats are in this unit, Bit2nm only where no unit is given.
+  const bool bits = factor != NULL && strcmp(factor->key, "bit2nm") == 0;
+  h->factor = bits && h->vertical > 0 ? NAN : h->factor;
+  h->vertical = factor == NULL || h->vertical > 0 ? h->vertical : bits ? 1e-9 : h->usual;
+  return true;
+}
+
+// Settles a unit by precedence: the caller's, the header's, that of the column's name. Returns
+// false with an error that `key` resolves if the latter two differ, or if it is needed and unknown.
+static bool settle_unit(double *unit, double column, double chosen, bool needed, const char *key,
+                        const char *what, GError **error) {
+  const bool two = *unit > 0 && column > 0 && *unit != column && chosen == 0;
+  *unit = chosen > 0 ? chosen : *unit > 0 ? *unit : column;
+  return !(two || (needed && *unit == 0)) ||
+         sb_app_error_choose(
+             error, key, "nm\num\nmm",
+             two ? "states two units of its %s" : "does not state the unit of its %s", what);
+}
+
+// The caller's unit of heights is that of the numbers as written: it replaces the header's factor
+// too, which a note states. Without any other, it is the unit of lengths. False with an error.
 static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbScanChoices *choices,
                        bool needs_lateral, GError **error) {
-  if (text->matrix.columns <= 3 && h->vertical == 0) {
-    const SbTextTableColumn *column = text->table->column;
-    const double y = text->matrix.columns == 3 ? sb_scan_length(column[1].unit) : 0;
-    h->vertical = sb_scan_length(column[text->matrix.columns - 1].unit);
-    h->lateral =
-        h->lateral > 0 || text->matrix.columns == 1 ? h->lateral : sb_scan_length(column[0].unit);
-    if (y > 0 && y != h->lateral) {
-      return sb_app_error_input(error, "x and y have different units");
-    }
+  const gsize columns = text->matrix.columns;
+  const SbTextTableColumn *column = text->table->column;
+  const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[0].unit) : 0;
+  const double y = columns == 3 ? sb_scan_length(column[1].unit) : 0;
+  const double z = columns <= 3 ? sb_scan_length(column[columns - 1].unit) : 0;
+  if (y > 0 && y != x) {
+    return sb_app_error_input(error, "x and y have different units");
   }
   if (choices->unit > 0 && isfinite(h->factor)) {
     sb_note_add(out->notes,
@@ -141,14 +181,11 @@ static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbS
                 h->factor);
     h->factor = NAN;
   }
-  h->vertical = choices->unit > 0 ? choices->unit : h->vertical;
-  h->lateral = choices->lateral_unit > 0 ? choices->lateral_unit
-               : h->lateral > 0          ? h->lateral
-                                         : choices->unit;
-  if (h->vertical == 0 || (needs_lateral && h->lateral == 0)) {
-    return sb_app_error_choose(error, h->vertical == 0 ? "unit" : "lateral-unit", "nm\num\nmm",
-                               "does not state the unit of its %s",
-                               h->vertical == 0 ? "heights" : "lengths");
+  h->lateral = h->lateral == 0 && x == 0 ? choices->unit : h->lateral;
+  if (!settle_unit(&h->vertical, z, choices->unit, true, "unit", "heights", error) ||
+      !settle_unit(&h->lateral, x, choices->lateral_unit, needs_lateral, "lateral-unit", "lengths",
+                   error)) {
+    return false;
   }
   if (isfinite(h->factor)) {
     sb_note_add(out->notes, "heights are multiplied by the header's factor %g", h->factor);
@@ -167,21 +204,17 @@ static bool take_matrix(SbScan *out, const SbScanText *text, const Header *h, GE
   for (gsize i = 0; i < to->columns * to->rows; i++) {
     to->z[i] = g_array_index(text->matrix.value, double, i) * h->vertical;
   }
-  const double lateral = h->bare ? h->lateral : 1;
-  to->dx = lateral * (isnan(h->step_x) ? h->width / (double)to->columns : h->step_x);
-  to->dy = lateral * (isnan(h->step_y) ? h->height / (double)to->rows : h->step_y);
+  to->dx = h->step[0] * (h->bare[0] ? h->lateral : 1);
+  to->dy = h->step[1] * (h->bare[1] ? h->lateral : 1);
   return true;
 }
 
 static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
                             GError **error) {
   Header h = header_of(text);
-  const SbScanEntry *title =
-      find_entry(text, "channel|title|kanal|canal|canale|titel|titre|titolo");
+  const SbScanEntry *title = find_entry(text, KEY_TITLE, false);
   const gsize columns = text->matrix.columns;
-  const bool sized =
-      isfinite(h.columns) ||
-      (columns > 2 && (isfinite(h.width + h.height) || isfinite(h.step_x + h.step_y)));
+  const bool sized = isfinite(h.columns) || (columns > 2 && isfinite(h.step[0] + h.step[1]));
   const bool points = !sized && columns == 3 && text->matrix.ragged == 0 && sb_scan_is_grid(text);
   const bool matrix = sized || (columns > 2 && !points), spaced = choices->spacing > 0;
   out->title = *title->key != '\0' ? g_strdup(title->value) : NULL;
@@ -190,7 +223,8 @@ static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanCho
                 : points       ? "text, x y z on a grid"
                 : columns == 2 ? "text, a profile x z"
                                : "text, a profile";
-  if (matrix && h.columns >= 1 && h.rows >= 1) {
+  const bool announced = h.columns >= 1 && h.rows >= 1;
+  if (matrix && announced) {
     if (h.columns * h.rows != (double)text->matrix.value->len) {
       return sb_app_error_input(error, "%u numbers where the header announces %.0f x %.0f",
                                 text->matrix.value->len, h.columns, h.rows);
@@ -199,11 +233,16 @@ static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanCho
     return sb_app_error_input(error, "line %d has not %" G_GSIZE_FORMAT " numbers as the first",
                               text->matrix.ragged, columns);
   }
-  if (matrix && sb_scan_is_placed(text)) {
-    return sb_app_error_input(error, "its first column has even steps, as positions have and "
-                                     "heights have not: remove the positions");
+  const char *placed = matrix ? sb_scan_placed(text, announced) : NULL;
+  if (placed != NULL) {
+    return sb_app_error_input(error,
+                              "its first %s has even steps, as positions have and "
+                              "heights have not: remove the positions",
+                              placed);
   }
-  if (!find_units(&h, out, text, choices, matrix ? h.bare && !spaced : columns > 1, error)) {
+  const bool bare = !spaced && (h.bare[0] || (matrix && h.bare[1]));
+  if (!take_factor(&h, text, choices, error) ||
+      !find_units(&h, out, text, choices, matrix || columns == 1 ? bare : true, error)) {
     return false;
   }
   // Heights are in the last column; those at the end of single precision mark void points.
@@ -217,6 +256,9 @@ static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanCho
         : points ? sb_scan_grid(out, text, h.lateral, h.vertical, error)
                  : sb_scan_profile(out, text, h.lateral, h.vertical, error))) {
     return false;
+  }
+  if (columns == 1) {
+    out->heights.dx = h.step[0] * (h.bare[0] ? h.lateral : 1);
   }
   return spaced || (out->heights.dx > 0 && (!matrix || out->heights.dy > 0)) ||
          sb_app_error_choose(error, "spacing", NULL, "does not state the distance of its points");
@@ -240,8 +282,8 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                      error, "is not a scan that is known (text, .gwy, .sur, .sdf or .x3p): it %s",
                      issue->text);
   }
-  for (char **line = table->header; *line != NULL && entries->len < ENTRIES_MAX; line++) {
-    take_entry(entries, *line, &table->dialect);
+  for (int i = 0; table->header[i] != NULL && entries->len < ENTRIES_MAX; i++) {
+    take_entry(entries, table->header[i], i + 1, &table->dialect);
   }
   const bool good = read_entry_text(out, &text, choices, error);
   g_array_unref(text.matrix.value);

@@ -18,21 +18,20 @@ enum { XML_MAX = 1 << 20 };
 // Takes the text of an element: path after the root, without name spaces, in lower case -> text.
 static void on_text(GMarkupParseContext *context, const char *text, gsize length, gpointer user,
                     GError **error) {
-  enum { DEPTH = 6 };
+  enum { DEPTH = 6 }; // deeper elements are not read
   GHashTable *texts = user;
-  const char *names[DEPTH + 1] = {NULL};
-  int count = 0;
-  // The stack begins with the element itself and ends with the root.
-  for (const GSList *at = g_markup_parse_context_get_element_stack(context);
-       at != NULL && at->next != NULL; at = at->next) {
-    if (count == DEPTH) {
-      return; // deeper than what is read
-    }
-    const char *name = at->data, *colon = strchr(name, ':');
-    names[DEPTH - ++count] = colon != NULL ? colon + 1 : name;
+  g_autoptr(GString) path = g_string_new(NULL);
+  const GSList *at = g_markup_parse_context_get_element_stack(context);
+  if (g_slist_nth((GSList *)at, DEPTH + 1) != NULL) {
+    return;
   }
-  g_autofree char *path = g_strjoinv("/", (char **)names + DEPTH - count);
-  g_autofree char *key = g_ascii_strdown(path, -1);
+  // The stack begins with the element itself and ends with the root.
+  for (; at != NULL && at->next != NULL; at = at->next) {
+    const char *name = at->data, *colon = strchr(name, ':');
+    g_string_prepend(path, path->len > 0 ? "/" : "");
+    g_string_prepend(path, colon != NULL ? colon + 1 : name);
+  }
+  g_autofree char *key = g_ascii_strdown(path->str, -1);
   if (!g_hash_table_contains(texts, key)) {
     g_hash_table_insert(texts, g_steal_pointer(&key), g_strstrip(g_strndup(text, length)));
   }
@@ -152,7 +151,6 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
                         GError **error) {
   static const char types[] = "ILFD";
   static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
-  static const guint64 sizes[] = {2, 4, 4, 8};
   const char *link = text_of(texts, "record3/datalink/pointdatalink");
   const char *feature = text_of(texts, "record1/featuretype"),
              *type = text_of(texts, "record1/axes/cz/datatype");
@@ -182,9 +180,9 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
     return sb_app_error_input(error, "CZ has the increment \"%s\"",
                               text_of(texts, "record1/axes/cz/increment"));
   }
-  const guint64 points = (guint64)columns * (guint64)rows, size = points * sizes[known - types];
+  const guint64 points = (guint64)columns * (guint64)rows;
   guint64 got = 0, valid_got = 0;
-  g_autofree guchar *data = member(zip, link, &got, size, packed, error);
+  g_autofree guchar *data = member(zip, link, &got, 8 * points, packed, error);
   g_autofree guchar *valid = NULL;
   if (data == NULL) {
     return false;
