@@ -12,8 +12,7 @@ enum { OUTLINE_PIECES_MAX = 5000, NEAR_MAX = 1000000 };
 // Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
 // a circle from the next one that continues it, and of a line from points on it; ends that are one
 // point where a body is cut [m].
-static const double OUTLINE_SHORT = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8,
-                    CUT_GAP = 1e-8;
+static const double TINY = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8;
 
 static SbCadPiece reversed(SbCadPiece piece) {
   return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
@@ -155,7 +154,7 @@ static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
   GArray *out = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
   for (guint i = 0; i < pieces->len; i++) {
     const Drawn drawn = drawn_of(g_array_index(pieces, SbCadPiece, i));
-    if (2 * drawn.reach > OUTLINE_SHORT) {
+    if (2 * drawn.reach > TINY) {
       g_array_append_val(all, drawn);
     }
   }
