@@ -25,13 +25,14 @@ double sb_figure_error_reported(const SbSummary *summary, int index);
 // As sb_figure_text(), with the value and error estimate of a run.
 char *sb_format_figure(char *out, const SbSummary *summary, int index);
 
-// Writes the value `value` [SI] that the figure `name` of a seal ("film_min_m") has at one state of
-// a run, with the error of that figure in the run, to out[SB_FORMAT_MAX]. Returns `out`. `summary`:
-// may be NULL, then the error is not known.
+// As sb_figure_text(), of the figure "seals.outer.NAME" or "seals.inner.NAME", which must exist,
+// for `name` ("film_min_m") and `seal`. `value` [SI] is its value at one state of a run, and the
+// error is that of the figure in `summary`, the run; NULL: not known.
 char *sb_seal_figure_text(char *out, const SbSummary *summary, int seal, const char *name,
                           double value);
 
-// Returns the same number in ASCII, for terminals and files: "-4.1 N"; "-" if the value is NaN.
+// Returns number and unit of a figure as sb_figure_parts() in ASCII, for terminals and files:
+// "-4.1 N"; "-" if the value is NaN.
 char *sb_figure_format(int index, double value, double error);
 
 // Returns the absolute error `error` [SI] of a figure with the value `value` [SI], in the display
@@ -54,8 +55,8 @@ int sb_figure_stage_force(SbStage stage);
 char *sb_figure_label(int index);
 
 // Writes the number `shown` in ASCII by the rounding rule, with at most `digits` significant
-// digits; `error` is its relative error (0: exact). Trailing zeros up to the rounding place are
-// written.
+// digits; `error` is its relative error (0: exact; NaN: not known). Trailing zeros up to the
+// rounding place are written.
 void sb_number_with_error(char out[SB_NUMBER_SIZE], double shown, int digits, double error);
 
 // One figure of one of several designs that are compared.
@@ -68,7 +69,8 @@ typedef struct {
 // Returns the decimals, in the unit that sb_figure_compared_unit() chooses, with which a figure of
 // `count` designs is printed next to each other: those that the error of the differences from the
 // first design with a value other than 0 supports (sb_figure_difference_error()), and no more than
-// the figure's digits. A value that only one design has is printed as by sb_figure_format().
+// the figure's digits; negative: tens, hundreds, ... A value that only one design has is printed as
+// by sb_figure_format().
 int sb_figure_compared_decimals(int index, const SbFigureCompared *design, size_t count);
 
 // Returns the display unit of all values of a comparison: that of the first value other than 0.

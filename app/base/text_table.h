@@ -103,7 +103,7 @@ typedef struct {
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
 // numbers of column[k] in the file's units, freed by g_free(); times of day in seconds from
 // midnight of the first day; NaN for an empty cell; for the index table->columns, the row's block,
-// counted at blank lines. Returns false with one issue: memory, too many rows, or ambiguous dates.
+// from 0, cut at blank lines. Returns false with one issue: memory, too many rows, ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
@@ -121,7 +121,7 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
                                GPtrArray *issues);
 
 // Reads the number at the start of `text`, with a decimal point, or with a comma if `decimal` is
-// ',' or no thousands can be meant. Returns the number of bytes read; 0, *out unchanged: no number.
+// ',' or not just 3 digits follow it. Returns the number of bytes read; 0, *out unchanged: none.
 size_t sb_text_table_number_at(double *out, const char *text, char decimal);
 
 // Returns the usual spelling of a unit, as app/base/unit.h reads it: "Sek." is "s". NULL: not

@@ -69,8 +69,8 @@ typedef struct {
 // Reads a cell as a time of day. Returns false if it is none.
 bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell);
 
-// Writes the number of days of a date since a fixed one. Returns false if it is ambiguous which
-// number is the day and which the month, and `dates` (of a dialect) does not state it.
+// Writes the days from a fixed day to the date that `clock` must have. Returns false if it is no
+// date, or if day and month are ambiguous and `dates` (of a dialect) does not state their order.
 bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates);
 
 // Kinds of a line's cells, a bit each.
@@ -85,10 +85,10 @@ typedef struct {
 // Returns the kinds of a line's cells in this dialect; of a comment or an empty line all 0.
 SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDialect *dialect);
 
-// Where a line is among the blocks of a file. The caller sets (0) and frees `names`.
+// Where a line is among the blocks of a file. Initialise with {0}; the caller frees `names`.
 typedef struct {
-  char *names; // the line of names above the block; NULL: none. Freed by g_free()
-  bool after_row, after_names;
+  char *names;                 // the line of names above the block; NULL: none. Freed by g_free()
+  bool after_row, after_names; // the last line was a row of the table; it was a line of names
 } SbTextTableBlock;
 
 // Where a table is read from.

@@ -115,8 +115,8 @@ SbDocument *sb_cli_open(SbModel **model, const char *path, char **settings);
 SbStudyFile *sb_cli_open_study(const char *path, char **settings);
 
 // Opens a study as sb_cli_open_study(), or a valve or scene as sb_cli_open(), by the kind that the
-// file itself states. One of *study and the returned document is not NULL unless there is a
-// problem.
+// file itself states: sets *study to the study and returns NULL, without a model; or sets *study to
+// NULL and returns the document. If both are NULL there was a problem, which is printed.
 SbDocument *sb_cli_open_either(SbStudyFile **study, SbModel **model, const char *path,
                                char **settings);
 
@@ -195,10 +195,10 @@ int sb_cli_check_targets(const char *const *targets, size_t count);
 // was not deleted because it was changed since.
 void sb_cli_kept(const char *folder, const GPtrArray *kept);
 
-// Writes the folder `path` as one result: calls `fill` once with `data`, and then gives all files
-// their names. Files of an earlier result of `command` (the command's name) that this one does not
-// have are deleted, or named as by sb_cli_kept(). Returns SB_EXIT_DONE, or another exit code with a
-// message.
+// Writes the folder `path` as one result: calls `fill` (app/base/output.h) once with `data`, and
+// then gives all files their names. Files of an earlier result of `command` (the command's name)
+// that this one does not have are deleted, or named as by sb_cli_kept(). Returns SB_EXIT_DONE, or
+// another exit code with a message.
 int sb_cli_write_folder(const char *path, const char *command, SbOutputFill fill, void *data);
 
 // ---- Output ----

@@ -69,7 +69,8 @@ bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
 
 // Returns the content of the file `path` ("-": standard input) for sb_document_read(), *length
-// bytes and a terminating 0; freed by g_free(). NULL with one issue, as sb_reader_load().
+// bytes and a terminating 0; freed by g_free(). NULL with one issue if it is not a regular file,
+// cannot be read, or is larger than SB_DOCUMENT_BYTES_MAX (a PNG may be larger).
 char *sb_document_load_text(size_t *length, const char *path, GPtrArray *issues);
 
 // As sb_document_load(), from the content of `path` that sb_document_load_text() returned.
@@ -104,8 +105,9 @@ const char *sb_document_valve_path(const SbDocument *document);
 // call for this document.
 const GPtrArray *sb_document_notes(const SbDocument *document);
 
-// Appends a note to `notes` (of SbIssue) for each size that stays although a drawing would change
-// it with a size that has changed. A run has the same text as its warning "size-kept".
+// Appends a note to `notes` (of SbIssue) for each size that the file gives, and that does not
+// follow another size which --set or an edit has changed, although both change together in a
+// drawing (sb_params_kept()). A run has the same text as its warning "size-kept".
 void sb_document_kept(const SbDocument *document, GPtrArray *notes);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of

@@ -94,7 +94,7 @@ struct SbDocument {
   SbParams base;                      // values that the valve gives (scenes)
   SbParams own;                       // values that the document itself gives
   SbParams saved;                     // values that its file gives
-  bool stated[SB_PARAM_COUNT];        // values of --set
+  bool stated[SB_PARAM_COUNT];        // --set has set the value
   SbLimits limits;                    // of the valve, replaced by the own ones
   GPtrArray *cases;                   // of SbCase, of the valve, replaced by the own ones
   GPtrArray *pins;                    // only the own ones (document_pins.c)

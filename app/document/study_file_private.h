@@ -57,9 +57,9 @@ void sb_study_read_design(SbStudyReader *reader, const SbEntry *entry);
 // Checks, after all groups were read, what a design requires of them; appends issues.
 void sb_study_check_design(SbStudyReader *reader);
 
-// Called after all groups were read. Appends a note to study->notes for each size that stays while
-// the study changes the size with which a drawing would change it. Scatter of manufacture (normal)
-// changes no drawing.
+// Called after all groups were read. Appends a note to study->notes for each size that the scene
+// gives and that stays while the study varies the size with which a drawing would change it
+// (sb_params_keeps()). A normal distribution is scatter of manufacture and gives no note.
 void sb_study_note_kept(SbStudyReader *reader);
 
 // Reads a line of [leakage_test] to study->leakage; appends an issue if it is wrong.

@@ -18,12 +18,12 @@ SbTable *sb_run_seals(const SbSummary *summary);
 // Returns time, displacement, force and event of each stage.
 SbTable *sb_run_stages(const SbSummary *summary);
 
-// Returns the answers to all questions of the verdict [SB_VERDICT_COUNT] with what decides them. No
-// is marked as wrong.
+// Returns the answers to all questions, verdict[SB_VERDICT_COUNT], with what decides them. The
+// answer "no" is marked as wrong.
 SbTable *sb_run_verdict(const SbSummary *summary, const SbCaseVerdict *verdict);
 
-// Returns the answer to question `kind` (of SbVerdictKind) on one line: the deciding figure with
-// its limit, the reason and the case.
+// Returns the answer `verdict` to question `kind` (of SbVerdictKind) on one line: the deciding
+// figure with its limit, the reason and the case.
 char *sb_run_verdict_text(const SbSummary *summary, int kind, const SbCaseVerdict *verdict);
 
 // Returns the warnings with their codes and parameters, serious ones marked as doubtful. `notes`,

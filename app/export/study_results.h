@@ -63,8 +63,8 @@ char *sb_study_typical(const SbStudyFile *study, SbShelfSpecies species);
 // scene) of the open object; "-" is standard input.
 void sb_json_study_files(SbJson *json, const SbStudyFile *study);
 
-// Writes the member "missing" of the open object: the samples that were computed and have no value
-// of a figure, at most 100, each with its reason.
+// Writes the member "missing" of the open object: the samples with status SB_OK that have no value
+// of a figure, at most 100, each with its number (from 1) and reason.
 void sb_study_put_missing(SbJson *json, const SbAnswers *answers);
 
 // Writes the member "reasons" of the open object: why figures, indices and probabilities of limits

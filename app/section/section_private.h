@@ -103,10 +103,10 @@ void sb_section_draw_housing(SbSection *section, const SbSectionFrameMap *map);
 // Draws the stem.
 void sb_section_draw_stem(SbSection *section, const SbSectionFrameMap *map);
 
-// Returns the height of the valve's axis in the strip [px], or the lower end of a zoomed picture.
+// Returns the pixel y of the valve's axis, or of the strip's lower end if the axis is below it.
 double sb_section_axis(const SbSection *section);
 
-// Returns the style of a label of size 12. `plate` (NULL: none) is borrowed.
+// Returns the style of a label of 12 px. `plate` (NULL: none) is borrowed.
 SbSectionLabel sb_section_label_style(SbColor color, int weight, SbAlign align,
                                       const SbColor *plate);
 
@@ -135,7 +135,7 @@ size_t sb_section_curve(SbValvePoint *out, const SbValvePoint *knot, int knots);
 void sb_section_draw_way(SbSection *section, const SbValvePoint *way, size_t count);
 
 // Draws the bold name of a space with its pressure [Pa] after it, or `below` it, at (x, y) [px],
-// unless it would cover another label.
+// unless it would cover another label or leave the strip.
 void sb_section_name_pressure(SbSection *section, double x, double y, const char *name,
                               double pressure, bool below);
 

@@ -45,7 +45,7 @@ typedef struct {
   void *data;
 } SbQuestions;
 
-// Largest size of a reason of a sample that was computed [bytes].
+// Size of a buffer that is enough for the reason of each sample [bytes].
 enum { SB_ANSWER_REASON = 8192 };
 
 // SbAnswers.status of a sample that was not computed: of another shard, or cancelled.

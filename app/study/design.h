@@ -22,9 +22,9 @@ typedef struct {
   double *value;  // [vary]: parameters, in the order of study->vary [SI]
   double *figure; // [figures]: in the order of study->figures [SI]
   double *error;  // [figures]: relative errors of `figure`, as sb_figure_error()
-  char **reason;  // [figures]: why `figure` has no value at the design, or if no start has one, at
-                 // the first start; NULL: it has one
-  size_t figures;       // number of elements of `figure`
+  char **reason;  // [figures]: why `figure` has no value at the design (without a design: at the
+                  // first start); NULL: it has one
+  size_t figures; // number of elements of `figure`
   SbWarnings *warnings; // limits of validity of the figures; NULL: no design
   // min |gradient of the objective + multipliers x gradients of the active limits and bounds|
   // divided by |gradient of the objective|, with multipliers >= 0; 0 at an optimum; NaN: not

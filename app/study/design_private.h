@@ -62,7 +62,8 @@ SbStatus sb_design_run_starts(Start *best, SbDesign *out, const Problem *problem
                               size_t count, int jobs, SbReport *report);
 
 // Writes parameters, figures with errors and warnings, active limits and bounds and the optimality
-// of *best to *out, whose `value`, `figure` and `error` the caller has allocated.
+// of *best to *out, whose `value`, `figure`, `error` and `reason` (zeros at first) the caller
+// has allocated.
 SbStatus sb_design_take_optimum(SbDesign *out, const Problem *problem, const Start *best,
                                 SbReport *report);
 

@@ -41,8 +41,8 @@ typedef struct {
 // then the area is negative.
 double sb_profile_area(const SbProfile *profile);
 
-// Returns whether an outline is inside of another one: about 16 of its points off the axis are.
-// Both satisfy sb_profile_check().
+// Returns whether an outline is inside of another one: about 16 points of `inner` off the axis
+// are. Both satisfy sb_profile_check().
 bool sb_profile_encloses(const SbProfile *outer, const SbProfile *inner);
 
 // Checks an outline. SB_ERROR_INPUT: it does not bound a body (open, crosses itself, clockwise,
@@ -54,7 +54,7 @@ SbStatus sb_profile_check(const SbProfile *profile, SbReport *report);
 SbStatus sb_solid_revolve(SbSolid *solid, const SbProfile *profile, double density,
                           SbReport *report);
 
-// Makes `hole`, a part of `body` with the same density, a hole of it.
+// Removes `hole`, a part of `body` in the same coordinates and of the same density, from it.
 void sb_solid_remove(SbSolid *body, const SbSolid *hole);
 
 // Diameters of a revolved part within a range of x [m].

@@ -41,9 +41,9 @@ typedef enum {
   SB_SCAN_KINDS
 } SbScanKind;
 
-// Takes a grid from the first of `bytes`, row after row: heights are `scale` times the numbers; the
-// number `missing` (NaN: none) and those beyond single precision are missing points. Returns false
-// with an error of sb_scan_allocate(), or if there are too few bytes.
+// Allocates and reads a grid from the first of `bytes`, row after row: heights are `scale` times
+// the numbers; the number `missing` (NaN: none) and those beyond single precision are missing
+// points. Returns false with an error of sb_scan_allocate(), or if there are too few bytes.
 bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
                        SbScanBytes bytes, double scale, double missing, GError **error);
 
@@ -60,7 +60,7 @@ typedef struct {
   char *value;   // as it is in the file
   double number; // with which the value begins; NaN: none
   double unit;   // metres of the one in brackets in the key or after a number; 0: no length; NaN:
-                 // the number is one of points
+                 // the number counts points
   int line;      // from 1
 } SbScanEntry;
 
@@ -82,8 +82,8 @@ bool sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double ve
 bool sb_scan_is_grid(const SbScanText *text);
 
 // Returns "column" or "row" if the first one of a matrix has even steps, as positions have and
-// heights not; NULL: neither. A first row is not one of positions if the file has `announced` the
-// number of heights, or if the second one has even steps too, as an inclined plane has.
+// heights not; NULL: neither. A first row is not one of positions if the header states the number
+// of heights (`announced`), or if the second one has even steps too, as an inclined plane has.
 const char *sb_scan_placed(const SbScanText *text, bool announced);
 
 // Writes columns x, z (or z alone: dx becomes 0) to a profile, whose heights it allocates.

@@ -85,7 +85,8 @@ typedef struct {
     .groove_share = 1.0                                                                            \
   }
 
-// Largest fraction of a groove's section that the ring's section may be between both walls.
+// Largest allowed area of the stretched ring's section divided by that of the groove between two
+// walls [1]; a fuller groove is SB_ERROR_INFEASIBLE.
 #define SB_RING_FILL_MOST 0.985
 
 // Element size (SbRingOptions.element_size) for an accuracy of 1 %.

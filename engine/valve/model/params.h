@@ -216,13 +216,13 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // constant difference while it is not given.
 bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
 
-// Row `index` (below SB_KEEPS_COUNT) of SB_KEEPS, in a valve of `kind`: writes the size to *id and
-// the size that it follows to *giver. Returns false if the row is for another kind.
+// Row `index` (below SB_KEEPS_COUNT) of SB_KEEPS, in a valve of `kind` (valve.kind): writes the
+// size to *id and the size that it follows to *giver. Returns false if the row is for another kind.
 bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind);
 
-// Returns whether the size of row `index` of SB_KEEPS (*id) stays although the size with which a
-// drawing would change it differs from the drawing (params->drawn) by more than its tolerance, and
-// writes a sentence for the user.
+// Writes the size of row `index` of SB_KEEPS to *id. Returns whether it is given while the size
+// that it would follow differs from params->drawn[index] (> 0) by more than the tolerance of that
+// size; then writes a sentence for the user to `text`.
 bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, int index);
 
 // Returns the fluid (a choice of fluid.name) for which the value of the fluid-dependent

@@ -339,7 +339,8 @@ const SbRig *sb_model_rig(const SbModel *model);
 // Returns the default style of the section drawing.
 const SbSectionLook *sb_model_look(const SbModel *model);
 
-// Returns the force p pi D_p^2/4 of the canister pressure, which pushes the stem out [N].
+// Returns the force p pi D_p^2/4 of the canister pressure p on the stem (D_p:
+// stem.pressure_diameter) [N], which pushes the stem out.
 double sb_model_pressure_force(const SbModel *model);
 
 // Returns the combined rms roughness of the first actuation [m].
