@@ -241,7 +241,7 @@ bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
     return sb_app_error_input(error, "contains no GwyContainer, or is cut short");
   }
   const Component container = {.value = content.at, .count = (guint64)(content.end - content.at)};
-  Component data, title, mask;
+  Component data, title = {0}, mask;
   const long id = choose(&data, &title, &container, choices->channel, error);
   if (id < 0 || !read_channel(out, &data, error)) {
     return false;
