@@ -14,10 +14,12 @@ def frames_in(app, node):
 
 def a_long_run_grows_and_can_be_cancelled(app, _folder):
     count = app.label_node(r"^\d+ frames")
-    # So many cycles with inertia take minutes on any machine.
+    # So many cycles with inertia take minutes on any machine; the default work limit would end them after
+    # some seconds.
     app.choose("Motion", "dynamic")
     app.edit("Cycles", "1000")
     app.unfold("Output")
+    app.edit("Work limit", "2000000000")
     app.watch_latency()
     app.edit("Frames", "2000000")
     first = wait("the first frames", lambda: 412 < frames_in(app, count) and frames_in(app, count))
