@@ -126,14 +126,16 @@ static void fix_kept(SbStudyFile *about, const SbStudyFile *study, const double 
     const SbParamId giver = g_array_index(about->vary, SbVary, k).id;
     const int at = sb_study_vary_index(study, sb_param(giver)->key);
     const double change = at >= 0 ? value[at] - sb_model_value(study->base, giver) : 0;
-    for (int id = 0; id < SB_PARAM_COUNT; id++) {
-      const char *key = sb_param((SbParamId)id)->key;
-      if (!sb_param_keeps((SbParamId)id, giver, kind) || params.given[id] ||
-          sb_study_vary_index(about, key) >= 0 || sb_study_vary_index(study, key) >= 0) {
+    for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+      SbParamId id, follows;
+      const bool row = sb_params_keeps(&id, &follows, i, kind) && follows == giver;
+      const char *key = sb_param(id)->key;
+      if (!row || params.given[id] || sb_study_vary_index(about, key) >= 0 ||
+          sb_study_vary_index(study, key) >= 0) {
         continue;
       }
-      SbVary vary = {.id = (SbParamId)id, .levels = g_new(double, 1)};
-      vary.levels[0] = sb_model_value(study->base, (SbParamId)id) + change;
+      SbVary vary = {.id = id, .levels = g_new(double, 1)};
+      vary.levels[0] = sb_model_value(study->base, id) + change;
       vary.distribution =
           (SbDistribution){.kind = SB_DISTRIBUTION_LEVELS, .level = vary.levels, .count = 1};
       g_array_append_val(about->vary, vary);

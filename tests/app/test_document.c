@@ -15,12 +15,11 @@
 // catalogue's default, exactly, and none that follows a set of models, a fluid, a rubber or another
 // size; sizes are those of its kind of valve.
 static bool follows(SbParamId id) {
-  for (int giver = 0; giver < SB_PARAM_COUNT; giver++) {
-    if (sb_param_keeps(id, (SbParamId)giver, SB_VALVE_PISTON)) {
-      return true;
-    }
-    if (sb_param_keeps(id, (SbParamId)giver, SB_VALVE_GASKET)) {
-      return false;
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    SbParamId kept, giver;
+    const bool piston = sb_params_keeps(&kept, &giver, i, SB_VALVE_PISTON);
+    if (kept == id) {
+      return piston;
     }
   }
   SbParamDefault of;

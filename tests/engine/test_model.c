@@ -285,6 +285,16 @@ static void test_gasket_sizes(void) {
   }
 }
 
+// Whether a size follows another one in a valve of this kind.
+static bool follows(SbParamId id, SbParamId giver, int kind) {
+  bool found = false;
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    SbParamId kept, of;
+    found = found || (sb_params_keeps(&kept, &of, i, kind) && kept == id && of == giver);
+  }
+  return found;
+}
+
 // Sizes that a drawing changes together keep their difference until they are given.
 static void test_kept(void) {
   static const struct {
@@ -310,7 +320,7 @@ static void test_kept(void) {
     sb_params_default(&derived, &params, rows[i].id);
     g_assert_true(sb_param_follows(rows[i].id));
     g_assert_true((derived.giver == (int)rows[i].giver) ==
-                  sb_param_keeps(rows[i].id, rows[i].giver, rows[i].kind));
+                  follows(rows[i].id, rows[i].giver, rows[i].kind));
     // A value of its own stays.
     g_assert_cmpint(sb_params_set(&params, rows[i].id, 4e-3, NULL), ==, SB_OK);
     g_assert_cmpfloat(sb_params_get(&params, rows[i].id), ==, 4e-3);

@@ -161,12 +161,11 @@ static const struct {
   {SB_P_##id, SB_P_##giver, SB_P_##giver##_TOLERANCE, kind, own, given, source},
 #include "engine/valve/model/params.def"
 };
-enum { KEEPS = sizeof keeps / sizeof keeps[0] };
 
 // A size that differs from another one by what their defaults differ by. At the other's default it
 // is exactly its own.
 static bool from_size(SbParamDefault *out, const SbParams *params, SbParamId id) {
-  for (size_t i = 0; i < KEEPS; i++) {
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
     if (keeps[i].id == id && (int)sb_params_get(params, SB_P_VALVE_KIND) == keeps[i].kind) {
       *out = (SbParamDefault){.value = keeps[i].own +
                                        (sb_params_get(params, keeps[i].giver) - keeps[i].given),
@@ -181,14 +180,6 @@ static bool from_size(SbParamDefault *out, const SbParams *params, SbParamId id)
     }
   }
   return false;
-}
-
-bool sb_param_keeps(SbParamId id, SbParamId giver, int kind) {
-  bool found = false;
-  for (size_t i = 0; i < KEEPS; i++) {
-    found = found || (keeps[i].id == id && keeps[i].giver == giver && keeps[i].kind == kind);
-  }
-  return found;
 }
 
 bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind) {
@@ -213,11 +204,11 @@ bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, i
 }
 
 static bool is_kept(SbParamId id) {
-  size_t i = 0;
-  while (i < KEEPS && keeps[i].id != id) {
+  int i = 0;
+  while (i < SB_KEEPS_COUNT && keeps[i].id != id) {
     i++;
   }
-  return i < KEEPS;
+  return i < SB_KEEPS_COUNT;
 }
 
 // Parameters that follow from the saturated state of a named fluid.
@@ -403,7 +394,7 @@ SbStatus sb_params_set(SbParams *params, SbParamId id, double value, SbReport *r
   }
   params->value[id] = value;
   params->given[id] = true;
-  for (size_t i = 0; i < KEEPS; i++) {
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
     params->drawn[i] = keeps[i].id == id ? 0 : params->drawn[i];
   }
   return SB_OK;

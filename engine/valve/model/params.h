@@ -212,10 +212,6 @@ typedef struct {
 // the first source that has one (see the top of this file).
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
 
-// Returns whether, in a valve of `kind` (valve.kind), the size `id` follows the size `giver` with a
-// constant difference while it is not given.
-bool sb_param_keeps(SbParamId id, SbParamId giver, int kind);
-
 // Row `index` (below SB_KEEPS_COUNT) of SB_KEEPS, in a valve of `kind` (valve.kind): writes the
 // size to *id and the size that it follows to *giver. Returns false if the row is for another kind.
 bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind);
