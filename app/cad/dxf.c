@@ -60,12 +60,12 @@ static gpointer find(GHashTable *table, const char *name) {
 // Returns whether an entity on `layer` is a line whose type, or the layer's, or the layer's name
 // begins as those of centre lines do.
 static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer) {
-  g_auto(GStrv) starts = g_strsplit(SB_DXF_CENTRE, "|", -1);
+  static const char *const starts[] = {SB_DXF_CENTRE};
   const bool by_layer =
       *entity->line_type == '\0' || g_ascii_strcasecmp(entity->line_type, "bylayer") == 0;
   const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
   bool centre = false;
-  for (size_t i = 0; sb_dxf_is(entity, "LINE") && starts[i] != NULL; i++) {
+  for (size_t i = 0; sb_dxf_is(entity, "LINE") && i < G_N_ELEMENTS(starts); i++) {
     const size_t length = strlen(starts[i]);
     centre = centre || g_ascii_strncasecmp(layer, starts[i], length) == 0 ||
              (type != NULL && g_ascii_strncasecmp(type, starts[i], length) == 0);
