@@ -252,7 +252,7 @@ bool sb_document_set_option(SbDocument *document, const char *option, GPtrArray 
     g_error_free(error);
   } else {
     good = sb_document_set_value(document, (SbParamId)id, value, false, NULL);
-    document->stated[id] = good;
+    document->stated[id] |= good;
     sb_document_note_override(document, (SbParamId)id, "--set");
     if (good) {
       sb_hardness_note(document->notes, "--set", 0, key, (SbParamId)id, text);

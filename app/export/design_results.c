@@ -44,7 +44,7 @@ static void put_parameters(SbJson *json, const SbStudyFile *study, const SbDesig
   sb_json_object(json, "parameters");
   for (guint k = 0; k < study->vary->len; k++) {
     const SbParam *param = sb_param(g_array_index(study->vary, SbVary, k).id);
-    if (param->kind == SB_PARAM_CHOICE) {
+    if (param->kind == SB_PARAM_CHOICE && design->found) {
       char name[64];
       sb_param_choice_name(param, (int)design->value[k], name, sizeof name);
       sb_json_string(json, param->key, name);
