@@ -293,8 +293,8 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 
 // ---- Blocks ----
 
-// Whether a line directly after a row names each column, not all alike as by "OVER"; between
-// blanks, where a remark has as many words, with a unit.
+// Whether a line directly after a row names each column, with different texts ("OVER" in each names
+// none); if blanks separate the cells, with a unit, because a remark has as many words.
 static bool names_each(const SbTextTable *table, const GString *line) {
   const SbTextTableShape *rows = &table->file->shape;
   g_auto(GStrv) cells = sb_text_table_header_cells(table, line);

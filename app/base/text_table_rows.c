@@ -81,7 +81,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   size_t begun = 0; // blocks behind blank lines
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
-    wrong = value[k] == NULL ? "there is no memory for its rows" : wrong;
+    wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
   }
   bool blank = false, other = false;
   sb_text_table_seek(lines, 0);

@@ -44,7 +44,7 @@ static bool read_difference(double *out, const SbVary *vary, double at, const ch
 }
 
 // A value of the parameter, within its range, or of a tolerance. Appends the text of a value that
-// is no expression to `values` (of char *), as do the functions that call this one.
+// is not an expression to `values` (of char *), as do the functions that call this one.
 static bool read_value(double *out, const SbVary *vary, GPtrArray *values, const char *text,
                        GError **error) {
   if (vary->offset) {

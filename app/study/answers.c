@@ -51,9 +51,8 @@ char *sb_warning_codes(const SbWarnings *warnings, const char *separator) {
   return g_string_free(text, text->len == 0);
 }
 
-// Returns why requested figures of a valve that was computed have no value, "FIGURE, FIGURE:
-// reason;
-// ..."; NULL: all have one. It is shorter than SB_ANSWER_REASON.
+// Returns why requested figures of a valve that was computed have no value, as "FIGURE, FIGURE:
+// REASON; FIGURE: REASON", shorter than SB_ANSWER_REASON; NULL: all have one.
 static char *missing_reasons(const SbStoredAnswer *answer, const SbQuestions *asked,
                              const SbEvaluator *evaluator) {
   GString *text = NULL;

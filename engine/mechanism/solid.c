@@ -311,7 +311,7 @@ void sb_solid_remove(SbSolid *body, const SbSolid *hole) {
     body->centre[k] =
         (part[0].mass * part[0].centre[k] - part[1].mass * part[1].centre[k]) / body->mass;
   }
-  for (int n = 0; n < 2; n++) { // about the new centre
+  for (int n = 0; n < 2; n++) { // parallel axis theorem, to the new centre
     double d[3], square = 0.0;
     for (int k = 0; k < 3; k++) {
       d[k] = part[n].centre[k] - body->centre[k];

@@ -43,8 +43,8 @@ static SbStatus check_edges(const unsigned *triangles, size_t count, SbReport *r
       status =
           sb_fail(report, SB_ERROR_INPUT,
                   "triangles %zu and %zu run along their common edge in the same direction: two "
-                  "solids touch "
-                  "or one is there twice (export each by itself), or the mesh has mixed handedness",
+                  "solids touch or one is there twice (export each by itself), or the mesh has "
+                  "mixed handedness",
                   edge[i].triangle, edge[i + 1].triangle);
       break;
     }

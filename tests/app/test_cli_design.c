@@ -149,7 +149,8 @@ static void test_objective(void) {
       write_study(SIZES "[design]\nobjective = minimise life.force_peak_last_N\n");
   CliResult result = CLI("design", study, "--json", "-");
   g_assert_cmpint(result.code, ==, 2);
-  static const char reason[] = "life.force_peak_last_N: life.actuations = 1: there is no life";
+  static const char reason[] =
+      "life.force_peak_last_N: life.actuations = 1: a life has 2 actuations or more";
   g_assert_nonnull(strstr(result.err, reason));
   g_autoptr(JsonNode) root = cli_parse(result.out);
   g_assert_true(JSON_NODE_HOLDS_NULL(cli_at(root, "objective")));

@@ -79,8 +79,8 @@ static const SbScanEntry *find_entry(const SbScanText *text, const char *key, bo
 // What the header says of a matrix; NaN or 0 where it does not.
 typedef struct {
   double columns, rows;
-  double step[2];           // of x and y [m], or in the unit of lengths (`bare`)
-  bool bare[2];             //
+  double step[2];           // of x and y [m], or in a unit (`bare`)
+  bool bare[2];             // `step` is in the unit of lengths
   double missing;           // value of missing points, as written
   double vertical, lateral; // units [m]
   double factor;            // of written heights; NaN: none

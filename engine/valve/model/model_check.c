@@ -249,29 +249,27 @@ void sb_model_modulus(SbModulusChange *out, const SbModel *model, double tempera
 }
 
 void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings *warnings) {
-  static const double NEAR = 20; // K, at 0.16 %/K of filled nitrile 3 % of the modulus
+  static const double NEAR = 20; // K, at the slope of filled nitrile 3 % of the modulus
+  static const char nitrile[] = "that of filled nitrile falls by 0.16 % per kelvin";
   const SbParamId id = SB_P_RUBBER_MODULUS_SLOPE;
   SbParamDefault slope;
   sb_params_default(&slope, &model->params, id);
   const bool measured = model->params.given[id] || slope.from != NULL;
   const double away = fabs(temperature - SB_SIZES_TEMPERATURE);
   if (model->rubber.entropic && away > (measured ? 0 : NEAR)) {
-    char ignored[SB_TEXT] = "that of filled nitrile falls by 0.16 % per kelvin";
-    if (measured) {
-      sb_text(ignored, sizeof ignored,
-              "the slope that is known of this rubber, %.3g %% per kelvin, is not used",
-              100 * sb_params_get(&model->params, id));
-    }
+    char known[SB_TEXT];
+    sb_text(known, sizeof known,
+            "the slope that is known of this rubber, %.3g %% per kelvin, is not used",
+            100 * sb_params_get(&model->params, id));
     sb_warn(warnings, "modulus-entropic", sb_input(SB_P_RUBBER_ENTROPIC),
             "the modulus at %.4g °C is that at 20 °C times the absolute temperature "
             "(rubber.entropic), as in unfilled gum: %s",
-            temperature - 273.15, ignored);
+            temperature - 273.15, measured ? known : nitrile);
   } else if (!model->rubber.entropic && !measured && away > NEAR) {
     sb_warn(warnings, "modulus-temperature", sb_input(id),
             "the modulus at %.4g °C is assumed equal to that at 20 °C (inferred: no measurement of "
-            "this "
-            "rubber is known); that of filled nitrile falls by 0.16 %% per kelvin",
-            temperature - 273.15);
+            "this rubber is known); %s",
+            temperature - 273.15, nitrile);
   }
 }
 

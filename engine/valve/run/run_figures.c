@@ -418,7 +418,7 @@ static void give_reasons_of_run(SbRun *run, bool well) {
   const SbModel *model = run->model;
   const bool rig = !sb_motion_kind(model)->valve;
   const Reason before[] = {
-      {!run->plan.life, "life.*", "life.actuations = 1: there is no life"},
+      {!run->plan.life, "life.*", "life.actuations = 1: a life has 2 actuations or more"},
       {rig, "shelf.*", "the sliding plate (models.motion = rig) has no can"},
       {rig, "solver.error_estimate.permeation",
        "the sliding plate (models.motion = rig) has no can"},
