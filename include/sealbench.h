@@ -225,6 +225,28 @@ typedef struct {
 // run. Without contact its count is 0. _INPUT: another seal, or no such frame.
 SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal, SbSceneProfile *out);
 
+// ---- Verdict ----
+
+// Answer to one question of the verdict.
+typedef struct {
+  const char *question; // "seals", "presses", "returns", "doses", "leak" or "fits"
+  int ok;               // 1: yes; 0: no; -1: not known
+  const char *reason;   // one sentence about the answer; NULL: none is needed
+  const char *figure;   // key of the figure that decides; NULL: none, for example without a limit
+  double value, limit;  // of this figure and its limit, in the figure's SI unit; NaN: none
+  const char *of_case;  // name of the case that gives the answer; NULL: the scene itself
+} SbSceneVerdict;
+
+// Computes the scene as sb_scene_run() does, then each of its [cases], and takes the worst answer
+// to each question: the verdict of `sealbench run`. Returns the status of the run, else that of the
+// last case that failed; its message names the case. A case that failed makes every answer unknown,
+// unless the scene or another case answers no.
+SbSceneStatus sb_scene_judge(SbScene *scene);
+
+// Returns answer number `index` (from 0) of the last sb_scene_judge(); NULL after the last one,
+// before the first judgement, and after a later sb_scene_run(). Borrowed until the next of both.
+const SbSceneVerdict *sb_scene_verdict(const SbScene *scene, size_t index);
+
 // ---- Evaluation ----
 
 // Computes figures of the scene with some parameters replaced. The results equal those of a run of

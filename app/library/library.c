@@ -36,6 +36,7 @@ struct SbScene {
   char *path;        // of the file that was opened; NULL: none
   SbRun *run;        // NULL before the first
   SbEvaluator *evaluator;
+  SbAnswers answers;
   void (*progress)(void *data, double fraction);
   int (*cancelled)(void *data);
   void *data;
@@ -146,6 +147,7 @@ void sb_scene_close(SbScene *scene) {
   }
   sb_run_destroy(scene->run);
   sb_evaluator_destroy(scene->evaluator);
+  sb_answers_clear(&scene->answers);
   sb_document_free(scene->document);
   g_ptr_array_unref(scene->issues);
   g_ptr_array_unref(scene->lines);
@@ -256,17 +258,24 @@ void sb_scene_callbacks(SbScene *scene, void (*progress)(void *data, double frac
   scene->data = data;
 }
 
+// What part of a computation the hooks see: from `begun`, `share` of the whole.
+typedef struct {
+  const SbScene *scene;
+  double begun, share;
+} Part;
+
 static void on_progress(void *data, double fraction, size_t frames) {
-  const SbScene *scene = data;
+  const Part *part = data;
+  const SbScene *scene = part->scene;
   if (scene->progress != NULL) {
     const locale_t own = uselocale(scene->caller);
-    scene->progress(scene->data, fraction);
+    scene->progress(scene->data, part->begun + part->share * fraction);
     (void)uselocale(own);
   }
 }
 
 static bool is_cancelled(void *data) {
-  const SbScene *scene = data;
+  const SbScene *scene = ((const Part *)data)->scene;
   if (scene->cancelled == NULL) {
     return false;
   }
@@ -287,9 +296,9 @@ static SbSceneStatus compile(SbScene *scene, SbModel **model) {
   return fail(scene, SB_SCENE_ERROR_INPUT, first->key != NULL ? first->key : "", "%s", line);
 }
 
-SbSceneStatus sb_scene_run(SbScene *scene) {
-  SB_IN_OWN_LOCALE;
-  scene->caller = before_;
+// The run of the scene itself, `share` of the whole computation.
+static SbSceneStatus compute(SbScene *scene, double share) {
+  sb_answers_clear(&scene->answers);
   g_autoptr(SbModel) model = NULL;
   SbPlan plan;
   SbReport why = {0};
@@ -307,8 +316,41 @@ SbSceneStatus sb_scene_run(SbScene *scene) {
     scene->run = NULL;
     return report(scene, status, &why);
   }
-  const SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = scene};
+  Part part = {scene, 0, share};
+  const SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = &part};
   return report(scene, sb_run_execute(scene->run, &hooks, &why), &why);
+}
+
+SbSceneStatus sb_scene_run(SbScene *scene) {
+  SB_IN_OWN_LOCALE;
+  scene->caller = before_;
+  return compute(scene, 1);
+}
+
+SbSceneStatus sb_scene_judge(SbScene *scene) {
+  SB_IN_OWN_LOCALE;
+  scene->caller = before_;
+  const double own = 1 / (1 + (double)sb_document_case_count(scene->document));
+  const SbSceneStatus run = compute(scene, own);
+  if (scene->run == NULL || run == SB_SCENE_ERROR_CANCELLED) {
+    return run;
+  }
+  Part part = {scene, own, 1 - own};
+  const SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = &part};
+  SbCaseVerdict worst[SB_VERDICT_COUNT];
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  SbStatus cases = sb_cases_judge(worst, scene->run, scene->document, &hooks, problems);
+  sb_answers_take(&scene->answers, worst);
+  if (run != SB_SCENE_OK || cases == SB_OK) {
+    return run;
+  }
+  return fail(scene, (SbSceneStatus)cases, "", "%s",
+              problems->len > 0 ? (const char *)problems->pdata[problems->len - 1]
+                                : sb_status_text(cases));
+}
+
+const SbSceneVerdict *sb_scene_verdict(const SbScene *scene, size_t index) {
+  return index < scene->answers.count ? &scene->answers.answer[index] : NULL;
 }
 
 SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value) {
@@ -428,13 +470,14 @@ SbSceneStatus sb_scene_evaluate(SbScene *scene, const char *const *keys, const d
   if (compiled != SB_SCENE_OK) {
     return compiled;
   }
+  Part part = {scene, 0, 1};
   const SbQuestion question = {.base = model,
                                .override = overrides,
                                .override_count = count,
                                .figure = indices,
                                .figure_count = figure_count,
                                .cancelled = is_cancelled,
-                               .data = scene};
+                               .data = &part};
   return report(scene, sb_evaluator_ask(out, scene->evaluator, &question, &why), &why);
 }
 

@@ -1,8 +1,9 @@
-// Shared by library.c (scenes) and library_catalogue.c (catalogues).
+// Shared by library.c (scenes), library_catalogue.c (catalogues) and library_verdict.c (answers).
 #pragma once
 
 #include "include/sealbench.h"
 
+#include "app/run/cases.h"
 #include "engine/valve/sealbench.h"
 
 #include <locale.h>
@@ -16,6 +17,20 @@ typedef struct {
 
 // Returns the quantity of a key ("force_N"); NULL: there is none. Static. Needs no set-up.
 const SbFrameQuantity *sb_catalogue_quantity(const char *key);
+
+// The answers of a verdict as the caller sees them, with the strings that they point to. All zero:
+// not judged.
+typedef struct {
+  size_t count; // 0 or SB_VERDICT_COUNT
+  SbSceneVerdict answer[SB_VERDICT_COUNT];
+  char *reason[SB_VERDICT_COUNT], *of_case[SB_VERDICT_COUNT]; // owned; NULL: none
+} SbAnswers;
+
+// Replaces the answers by copies of `worst`.
+void sb_answers_take(SbAnswers *answers, const SbCaseVerdict worst[SB_VERDICT_COUNT]);
+
+// Frees the strings; afterwards all is zero.
+void sb_answers_clear(SbAnswers *answers);
 
 // Fills the catalogues, creates sb_catalogue_locale and switches off the error handler of GSL, at
 // the first call. May be called concurrently.

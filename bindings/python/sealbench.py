@@ -41,7 +41,7 @@ try:
 except ImportError:
     numpy = None  # type: ignore[assignment]
 
-__all__ = ["Scene", "Error", "Parameter", "Figure", "Profile", "PARAMETERS", "FIGURES", "QUANTITIES",
+__all__ = ["Scene", "Error", "Parameter", "Figure", "Profile", "Verdict", "PARAMETERS", "FIGURES", "QUANTITIES",
            "VERSION"]
 
 Value = Union[float, int, str]
@@ -78,6 +78,17 @@ class Profile(NamedTuple):
     model: str
 
 
+class Verdict(NamedTuple):
+    """Answer to one question of the verdict: True, False or None (not known); why; the figure that
+    decides, its value and its limit (SI, NaN: none); the case that gives the answer ("": the scene itself)."""
+    ok: bool | None
+    reason: str
+    figure: str
+    value: float
+    limit: float
+    case: str
+
+
 class Error(Exception):
     """A call that failed: `status` is one of the names below, `key` the parameter at fault or ""."""
     STATUS = ("ok", "input", "range", "infeasible", "not-converged", "cancelled", "memory", "io")
@@ -109,6 +120,11 @@ class _Profile(ctypes.Structure):
     _fields_ = [("count", ctypes.c_size_t)]
     _fields_ += [(name, ctypes.POINTER(_Double)) for name in ("x", "pressure", "film", "asperity_pressure")]
     _fields_ += [("model", _Text)]
+
+
+class _Verdict(ctypes.Structure):
+    _fields_ = [("question", _Text), ("ok", ctypes.c_int), ("reason", _Text), ("figure", _Text)]
+    _fields_ += [("value", _Double), ("limit", _Double), ("of_case", _Text)]
 
 
 def _load() -> ctypes.CDLL:
@@ -151,6 +167,8 @@ for _name, _result, _arguments in (
         ("sb_scene_get_text", _Text, [_scene, _Text]),
         ("sb_scene_callbacks", None, [_scene, _OnProgress, _IsCancelled, ctypes.c_void_p]),
         ("sb_scene_run", ctypes.c_int, [_scene]),
+        ("sb_scene_judge", ctypes.c_int, [_scene]),
+        ("sb_scene_verdict", _pointer(_Verdict), [_scene, _size]),
         ("sb_scene_figure", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
         ("sb_scene_reason", _Text, [_scene, _Text]),
         ("sb_library_source", _Text, []),
@@ -459,6 +477,25 @@ class Scene:
             return Profile(_copy(got.x, got.count), _copy(got.pressure, got.count),
                            _copy(got.film, got.count), _copy(got.asperity_pressure, got.count),
                            _text(got.model))
+
+    def judge(self) -> dict[str, Verdict]:
+        """Computes the scene as run() does, and each of its [cases]; returns `verdict`."""
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_judge(scene))
+        return self.verdict
+
+    @property
+    def verdict(self) -> dict[str, Verdict]:
+        """The worst answers of the last judge() to "seals", "presses", "returns", "doses", "leak" and
+        "fits"; empty before it, and after a later run()."""
+        out: dict[str, Verdict] = {}
+        with self._use() as scene:
+            while at := _lib.sb_scene_verdict(scene, len(out)):
+                row = at.contents
+                out[_text(row.question)] = Verdict(
+                    None if row.ok < 0 else row.ok > 0, _text(row.reason), _text(row.figure),
+                    row.value, row.limit, _text(row.of_case))
+        return out
 
     # ---- Evaluation ----
 

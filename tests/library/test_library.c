@@ -279,6 +279,39 @@ static int is_cancelled(void *data) {
   return ++watch->asked > watch->stop_after;
 }
 
+// The verdict is the worst of the scene and its cases; a run without cases forgets it.
+static void test_judge(void) {
+  static const char text[] = "[sealbench]\nformat = 1\nkind = scene\nvalve = piston.valve\n"
+                             "[limits]\ncycle.force_breakaway_N = <= 40 N\n"
+                             "[cases]\ntight = gland.radial_space = 1.2 mm\n"
+                             "wide = gland.radial_space = 1.5 mm\n";
+  static const char *const question[] = {"seals", "presses", "returns", "doses", "leak", "fits"};
+  SbScene *scene;
+  Watch watch = {.stop_after = G_MAXINT};
+  g_assert_cmpint(sb_scene_parse(&scene, text, strlen(text), SB_ASSETS "/valves"), ==, SB_SCENE_OK);
+  sb_scene_callbacks(scene, on_progress, is_cancelled, &watch);
+  g_assert_null(sb_scene_verdict(scene, 0));
+  g_assert_cmpint(sb_scene_judge(scene), ==, SB_SCENE_OK);
+  g_assert_cmpfloat(watch.last, ==, 1);
+  for (size_t i = 0; i < G_N_ELEMENTS(question); i++) {
+    g_assert_cmpstr(sb_scene_verdict(scene, i)->question, ==, question[i]);
+  }
+  g_assert_null(sb_scene_verdict(scene, G_N_ELEMENTS(question)));
+  const SbSceneVerdict *returns = sb_scene_verdict(scene, 2);
+  g_assert_cmpint(returns->ok, ==, 0);
+  g_assert_cmpstr(returns->of_case, ==, "tight");
+  g_assert_cmpstr(returns->figure, ==, "cycle.force_return_margin_N");
+  g_assert_cmpfloat(returns->value, <, 0);
+  g_assert_cmpfloat(figure(scene, "cycle.force_return_margin_N"), >, returns->value);
+  watch = (Watch){.stop_after = G_MAXINT};
+  g_assert_cmpint(sb_scene_run(scene), ==, SB_SCENE_OK);
+  g_assert_null(sb_scene_verdict(scene, 0));
+  watch = (Watch){.stop_after = 5};
+  g_assert_cmpint(sb_scene_judge(scene), ==, SB_SCENE_ERROR_CANCELLED);
+  g_assert_null(sb_scene_verdict(scene, 0));
+  sb_scene_close(scene);
+}
+
 static void test_callbacks(void) {
   Watch watch = {.stop_after = G_MAXINT};
   SbScene *scene = open_scene("scenes/thesis-cycle.scene");
@@ -398,6 +431,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/library/files", test_files);
   g_test_add_func("/library/run", test_run);
   g_test_add_func("/library/evaluate", test_evaluate);
+  g_test_add_func("/library/judge", test_judge);
   g_test_add_func("/library/callbacks", test_callbacks);
   g_test_add_func("/library/locale", test_locale);
   g_test_add_func("/library/threads", test_threads);

@@ -95,6 +95,16 @@ check('an override', more[paths[0]] > values[paths[0]] and scene['seal.outer.sec
 status, key, text = failure(lambda: scene.evaluate(paths, {'stem.pressure_diameter': 7e-3}))
 check('a refused override', (status, key) == ('input', 'bore.diameter') and 'at least' in text, text)
 
+with sealbench.Scene(text='[sealbench]\nformat = 1\nkind = scene\nvalve = ../valves/piston.valve\n[cases]\n'
+                          'tight = gland.radial_space = 1.2 mm\n', folder=SCENES) as judged:
+    check('no verdict before judge()', judged.verdict == {})
+    answers = judged.judge()
+    check('the worst case', answers['returns'].ok is False and answers['returns'].case == 'tight'
+          and answers['returns'].value < 0 and answers['seals'].ok is True, answers)
+    check('an answer without a limit', answers['leak'].ok is None and math.isnan(answers['leak'].limit), answers)
+    judged.run()
+    check('a run forgets the verdict', judged.verdict == {})
+
 told = []
 scene.callbacks(told.append, lambda: False)
 scene.run()
