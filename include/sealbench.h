@@ -193,6 +193,11 @@ SbSceneStatus sb_scene_run(SbScene *scene);
 // computed. _INPUT: unknown path, or no run yet.
 SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value);
 
+// Writes the estimated error of that figure, relative to its magnitude, to *error: 0 for inputs and
+// closed forms; NaN where it is not known or cannot be stated. It is the numerical error, not that
+// of the model. _INPUT as above.
+SbSceneStatus sb_scene_error(SbScene *scene, const char *path, double *error);
+
 // Returns why a figure of the last run is NaN, one sentence, also before the first run; NULL if it
 // has a value, or if the path is unknown.
 const char *sb_scene_reason(const SbScene *scene, const char *path);

@@ -95,10 +95,7 @@ static SbSceneStatus take(SbScene **out, SbDocument *document, GPtrArray *issues
     g_ptr_array_add(scene->lines, sb_issue_line(issues->pdata[i]));
   }
   bool good = document != NULL && issues->len == 0;
-  if (document == NULL) {
-    document = sb_document_new_refused(issues);
-  }
-  scene->document = document;
+  scene->document = document != NULL ? document : sb_document_new_refused(issues);
   if (sb_evaluator_create(&scene->evaluator, NULL) != SB_OK) {
     sb_scene_close(scene);
     *out = NULL;
@@ -116,14 +113,12 @@ SbSceneStatus sb_scene_open(SbScene **out, const char *path) {
   sb_catalogue_set_up();
   SB_IN_OWN_LOCALE;
   GPtrArray *issues = sb_issues_new();
-  char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
+  g_autofree char *file = sb_shipped_resolve(path, SB_SHIPPED_FOR_RUN);
   SbDocument *document = sb_document_load(file, issues);
   bool readable = document != NULL || access(file, R_OK) == 0;
   SbSceneStatus status = take(out, document, issues, readable);
   if (*out != NULL) {
-    (*out)->path = file;
-  } else {
-    g_free(file);
+    (*out)->path = g_steal_pointer(&file);
   }
   return status;
 }
@@ -353,28 +348,37 @@ const SbSceneVerdict *sb_scene_verdict(const SbScene *scene, size_t index) {
   return index < scene->answers.count ? &scene->answers.answer[index] : NULL;
 }
 
-SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value) {
+// Writes what `of` returns for a figure of the last run.
+static SbSceneStatus read_run(SbScene *scene, const char *path,
+                              double (*of)(const SbSummary *summary, int index), double *out) {
   SB_IN_OWN_LOCALE;
-  int index = find_figure(scene, path);
-  const SbSummary *summary = scene->run != NULL ? sb_run_summary(scene->run) : NULL;
-  *value = NAN;
-  if (index < 0) {
-    return SB_SCENE_ERROR_INPUT;
-  }
-  if (summary == NULL) {
+  const int index = find_figure(scene, path);
+  *out = NAN;
+  if (index >= 0 && scene->run == NULL) {
     return fail(scene, SB_SCENE_ERROR_INPUT, path, "there has been no run yet");
   }
-  *value = sb_figure_value(summary, index);
-  return SB_SCENE_OK;
+  *out = index < 0 ? NAN : of(sb_run_summary(scene->run), index);
+  return index < 0 ? SB_SCENE_ERROR_INPUT : SB_SCENE_OK;
+}
+
+SbSceneStatus sb_scene_figure(SbScene *scene, const char *path, double *value) {
+  return read_run(scene, path, sb_figure_value, value);
+}
+
+static double stated_error(const SbSummary *summary, int index) {
+  return sb_figure_error_reason(summary, index) == NULL ? sb_figure_error(summary, index) : NAN;
+}
+
+SbSceneStatus sb_scene_error(SbScene *scene, const char *path, double *error) {
+  return read_run(scene, path, stated_error, error);
 }
 
 const char *sb_scene_reason(const SbScene *scene, const char *path) {
-  int index = sb_figure_find(path);
-  if (index < 0) {
-    return NULL;
+  const int index = sb_figure_find(path);
+  if (index < 0 || scene->run == NULL) {
+    return index < 0 ? NULL : "there has been no run yet";
   }
-  return scene->run != NULL ? sb_figure_reason(sb_run_summary(scene->run), index)
-                            : "there has been no run yet";
+  return sb_figure_reason(sb_run_summary(scene->run), index);
 }
 
 static const SbWarning *warning_of(const SbSummary *summary, size_t index) {
@@ -420,9 +424,8 @@ SbSceneStatus sb_scene_profile(SbScene *scene, size_t frame, const char *seal,
   size_t count = 0;
   const SbFrame *frames = scene->run != NULL ? sb_run_frames(scene->run, &count) : NULL;
   *out = (SbSceneProfile){0};
-  int index = 0;
-  while (index < SB_SEAL_COUNT && strcmp(sb_seal_name(index), seal) != 0) {
-    index++;
+  int index;
+  for (index = 0; index < SB_SEAL_COUNT && strcmp(sb_seal_name(index), seal) != 0; index++) {
   }
   if (index == SB_SEAL_COUNT) {
     return fail(scene, SB_SCENE_ERROR_INPUT, "", "there is no seal \"%s\": outer or inner", seal);

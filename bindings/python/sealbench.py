@@ -170,6 +170,7 @@ for _name, _result, _arguments in (
         ("sb_scene_judge", ctypes.c_int, [_scene]),
         ("sb_scene_verdict", _pointer(_Verdict), [_scene, _size]),
         ("sb_scene_figure", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
+        ("sb_scene_error", ctypes.c_int, [_scene, _Text, _pointer(_Double)]),
         ("sb_scene_reason", _Text, [_scene, _Text]),
         ("sb_library_source", _Text, []),
         ("sb_scene_warning", _Text, [_scene, _size]),
@@ -414,6 +415,14 @@ class Scene:
         value, name = _Double(), _name(path)
         with self._use() as scene:
             self._check(scene, _lib.sb_scene_figure(scene, name, ctypes.byref(value)))
+        return value.value
+
+    def error(self, path: str) -> float:
+        """The estimated numerical error of that figure, relative to its magnitude; 0 for inputs and closed
+        forms, NaN where it is not known."""
+        value, name = _Double(), _name(path)
+        with self._use() as scene:
+            self._check(scene, _lib.sb_scene_error(scene, name, ctypes.byref(value)))
         return value.value
 
     def figures(self) -> dict[str, float]:

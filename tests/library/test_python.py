@@ -63,6 +63,7 @@ time, force, friction = scene.frames('time_s', 'force_N', 'seals.outer.friction_
 check('frames', len(time) == len(force) == len(friction) == scene.frame_count > 100
       and all(a <= b for a, b in zip(time, time[1:])))
 check('figures', abs(max(force) / scene.figure('cycle.force_peak_N') - 1) < 1e-9)
+check('errors', scene.error('seals.outer.squeeze') == 0 and 0 <= scene.error('cycle.force_peak_N') < 0.1)
 film = 'seals.outer.film_by_model.reynolds'
 check('a reason', math.isnan(scene.figure(film)) and 'closed form' in scene.reason(film))
 profile = scene.profile(scene.frame_count // 4)
@@ -78,6 +79,7 @@ except ImportError:
     check('arrays without numpy', time.typecode == 'd')
 
 paths = ['seals.outer.load_N', 'cycle.force_breakaway_N', film]
+check('no error of a figure that was not computed', math.isnan(scene.error(film)))
 reasons: typing.Dict[str, str] = {}
 values = scene.evaluate(paths, {}, reasons)
 check('evaluate says what the run says', all(values[p] == scene.figure(p) for p in paths[:2]))
