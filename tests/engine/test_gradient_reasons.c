@@ -188,6 +188,23 @@ static void test_refused(void) {
   clear(&valve);
 }
 
+// A base whose rings use up the work limit reports that, not that no tangent is there.
+static void test_work_limit(void) {
+  static const SbParamId modulus = SB_P_SEAL_MODULUS;
+  const SbOverride change[] = {{SB_P_MODELS_SET, SB_MODEL_SET_CONSISTENT},
+                               {SB_P_OUTPUT_WORK_LIMIT, 100}};
+  SbGradient *gradient;
+  SbReport report;
+  Valve valve;
+  set_up(&valve, change, G_N_ELEMENTS(change));
+  g_assert_cmpint(
+      sb_gradient_create(&gradient, valve.evaluator, &valve.question, &modulus, 1, NULL, &report),
+      ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_cmpstr(sb_input_key(report.input), ==, "output.work_limit");
+  sb_gradient_destroy(gradient);
+  clear(&valve);
+}
+
 // A ring near another is the one that the solver steps to on the same mesh, and scales as bodies
 // do.
 static void test_ring_near(void) {
@@ -244,6 +261,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/gradient/kink", test_kink);
   g_test_add_func("/gradient/predict", test_predict);
   g_test_add_func("/gradient/refused", test_refused);
+  g_test_add_func("/gradient/work-limit", test_work_limit);
   g_test_add_func("/gradient/ring-near", test_ring_near);
   g_test_add_func("/gradient/ring-on-wall", test_ring_on_wall);
   return g_test_run();

@@ -70,6 +70,7 @@ static void ends(void) {
       g_assert_cmpstr(sb_input_key(cut.report.input), ==, "output.work_limit");
       g_assert_nonnull(strstr(cut.report.text, "work limit"));
       g_assert_nonnull(strstr(cut.report.text, "larger output.tolerance"));
+      g_assert_null(strstr(cut.report.text, "nan"));
       if (limit == 1) {
         g_assert_nonnull(strstr(cut.report.text, cases[i].solver));
         g_assert_true(strstr(cut.report.text, " mm") || strstr(cut.report.text, " MPa"));

@@ -364,6 +364,7 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
     return status;
   }
   const SbStatus solved = status;
+  const SbReport of_solved = *report;
   base.start = work->own_start = work->start;
   base.tangent = work->start != NULL;
   status = sb_evaluator_ask(work->own_value, work->evaluator, &base, report);
@@ -398,7 +399,11 @@ static SbStatus begin(Work *work, const SbQuestion *question, SbReport *report) 
       sb_gradient_refuse(work, k, i, "%s", why);
     }
   }
-  return work->start != NULL ? solved : status;
+  if (work->start == NULL) {
+    return status;
+  }
+  *report = of_solved;
+  return solved;
 }
 
 SbStatus sb_gradient_create(SbGradient **out, SbEvaluator *evaluator, const SbQuestion *question,

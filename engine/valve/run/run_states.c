@@ -69,9 +69,10 @@ static void report_failure(const Task *task, SbReport *report) {
   const SbModel *model = run->model;
   const SbSealState *state = task->state;
   bool fitted = sb_sliding_fit(run->memory[task->seal])->solver.converged;
+  bool placed = fitted && isfinite(state->contact_left);
   bool complete = isfinite(sb_sliding_friction(state));
   char place[96];
-  if (fitted) {
+  if (placed) {
     snprintf(place, sizeof place, "x %.3g to %.3g mm", 1e3 * state->contact_left,
              1e3 * state->contact_right);
   } else {
