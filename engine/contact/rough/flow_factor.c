@@ -30,28 +30,32 @@ static const double share[SCATTER / 2] = {
 // Gaps with their fractions of the area; the rest is in contact.
 typedef struct {
   int count;
-  double gap[GAPS], area[GAPS]; // in sigma; fractions
-  double contact;               // fraction
-  double dimension;             // n
+  double cube[GAPS], area[GAPS]; // gap^3 in sigma^3; fractions
+  double contact;                // fraction
+  double dimension;              // n
 } Gaps;
 
-// What the flow at the conductance exp(log_S) lacks, over n S.
-static double lacking(double log_S, const void *context) {
+// What the flow through the medium of the conductance S = exp(log_S) lacks, over n S; increases
+// with S.
+static double lacking(double *slope, double log_S, const void *context) {
   const Gaps *g = context;
-  const double S = exp(log_S), n = g->dimension;
-  double sum = g->contact / ((n - 1) * S);
+  const double n = g->dimension, part = (n - 1) * exp(log_S);
+  double sum = 0, rise = 0;
   for (int i = 0; i < g->count; i++) {
-    sum += g->area[i] / (g->gap[i] * g->gap[i] * g->gap[i] + (n - 1) * S);
+    const double open = g->area[i] / (g->cube[i] + part);
+    sum += open;
+    rise += open * g->cube[i] / (g->cube[i] + part);
   }
-  return 1 / n - S * sum;
+  *slope = part * rise / (n - 1);
+  return (part * sum + g->contact) / (n - 1) - 1 / n;
 }
 
 // S/u^3 of the medium with the mean gap u.
 static double obstruct(const Gaps *g, double u) {
-  const double n = g->dimension;
+  const double n = g->dimension, smooth = log(u * u * u);
   return g->contact >= (n - 1) / n
              ? 0
-             : exp(sb_bisect(lacking, g, log(u * u * u) - 90, log(u * u * u) + 3)) / (u * u * u);
+             : exp(sb_newton_bracketed(lacking, g, smooth - 80, smooth + 3, smooth - 1) - smooth);
 }
 
 static double standard_density(double x) {
@@ -74,8 +78,9 @@ static double undeformed(Gaps *g, double u) {
   g->dimension = 2;
   g->contact = 0.5 * erfc(d / M_SQRT2);
   for (int i = 0; i < PANELS; i++) {
-    g->gap[i] = low + (i + 0.5) * step;
-    g->area[i] = standard_density(g->gap[i] - d) * step;
+    const double gap = low + (i + 0.5) * step;
+    g->cube[i] = gap * gap * gap;
+    g->area[i] = standard_density(gap - d) * step;
     open += g->area[i];
   }
   for (int i = 0; i < PANELS; i++) {
@@ -106,14 +111,14 @@ static double deformed(Gaps *g, const Zoom *zoom, const double *scatter, double 
                             0);
     for (int i = 0; i < SCATTER; i++) {
       const double x = i % 2 == 0 ? node[i / 2] : -node[i / 2];
-      g->gap[g->count] = fabs(u_1 + scatter[k] * x);
+      const double gap = fabs(u_1 + scatter[k] * x);
+      g->cube[g->count] = gap * gap * gap;
       g->area[g->count] = lost * share[i / 2];
-      mean += g->gap[g->count] * g->area[g->count];
-      g->count++;
+      mean += gap * g->area[g->count++];
     }
   }
   for (int i = 0; i < g->count; i++) {
-    g->gap[i] *= zoom->gap[0] / mean;
+    g->cube[i] *= pow(zoom->gap[0] / mean, 3);
   }
   return obstruct(g, zoom->gap[0]);
 }
@@ -142,6 +147,9 @@ SbStatus sb_flow_factors(double *phi, const double *log_p, int count, const SbSp
       before = q;
     }
     for (int i = 0; i < count; i++) {
+      if (k > 0 && work->zoom[i].gap[0] >= UNDEFORMED) {
+        continue;
+      }
       double slope;
       const double area = sb_persson_area_share(s, q, 2, exp(log_p[i]));
       work->zoom[i].area[k] = area;

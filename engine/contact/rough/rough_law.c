@@ -123,7 +123,7 @@ static double persson_t(double soft) {
 // (F.N. Fritsch & R.E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238, sufficient limit).
 static SbStatus table_flow(SbRoughLaw *law, const SbSpectrum *spectrum, int closed,
                            SbReport *report) {
-  // Beyond, the film is so thick that phi_p is 1 within 1 %.
+  // Beyond, 1 - phi_p decreases with the square of the gap.
   const int last = (int)fmin(law->count - 1, closed + SB_FLOW_PRESSURES);
   double log_p[SB_FLOW_PRESSURES], phi[SB_FLOW_PRESSURES];
   double *value = law->value[FLOW], *slope = law->slope[FLOW];
@@ -136,12 +136,15 @@ static SbStatus table_flow(SbRoughLaw *law, const SbSpectrum *spectrum, int clos
     return status;
   }
   for (int i = closed + 1; i < law->count; i++) {
-    value[i] = fmax(value[i - 1], sqrt(sqrt(phi[(i < last ? i : last) - closed - 1])));
+    const double wider = exp(2 * (law->value[GAP][last] - law->value[GAP][i]));
+    const double flow = i <= last ? phi[i - closed - 1] : 1 - (1 - phi[last - closed - 1]) * wider;
+    value[i] = fmax(value[i - 1], sqrt(sqrt(flow)));
   }
   for (int i = closed; i < law->count - 1; i++) {
     const double below = i > closed ? value[i] - value[i - 1] : 0, above = value[i + 1] - value[i];
     slope[i] = fmin(0.5 * (below + above), 3 * fmin(below, above)) / law->step;
   }
+  slope[law->count - 1] = (value[law->count - 1] - value[law->count - 2]) / law->step;
   return status;
 }
 
@@ -163,7 +166,7 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
   const double threshold = s->threshold > 0 ? s->threshold : 0.5;
   const double closing = sb_persson_pressure(&spectrum, spectrum.q1, 2, threshold);
   const int closed = 108;
-  law->begin = persson_t(closing / p_1) - closed * law->step;
+  law->begin = s->threshold > 0 ? persson_t(closing / p_1) - closed * law->step : -11;
   for (int i = 0; i < law->count; i++) {
     double t = law->begin + law->step * i;
     double soft = t > 0 ? log1p(exp(-t)) : -t + log1p(exp(t));
@@ -259,7 +262,12 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
     double root = sb_hermite(&by[FLOW], fmin(fmax(f - i, 0), 1), law->step, &law->value[FLOW][i],
                              &law->slope[FLOW][i]);
     out->flow = root * root * root * root;
-    out->flow_slope = beyond == 0 ? 4 * root * root * root * by[FLOW] : 0;
+    out->flow_slope = beyond < 0 ? 0 : 4 * root * root * root * by[FLOW];
+    if (beyond > 0) { // as of thick films, 1 - phi_p decreases with the square of the gap
+      double rest = (1 - out->flow) * pow(law->surface.sigma * exp(v[GAP]) / out->gap, 2);
+      out->flow = 1 - rest;
+      out->flow_slope = 2 * rest * out->gap_slope / out->gap;
+    }
   }
   // Beyond the closed end the share stays.
   double log_share = v[SHARE] + fmax(beyond, 0) * by[SHARE];
