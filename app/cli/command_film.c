@@ -182,6 +182,13 @@ static const Quantity quantities[] = {
      offsetof(SbFilmProblem, sigma)},
     {"sigma-over-beta", false, "1", "", "Height deviation over tip radius (--surface), 0.1",
      offsetof(SbFilmProblem, sigma_over_beta)},
+    {"percolation-threshold", false, "1", "",
+     "Real area at which the last channel closes (--surface persson); else none",
+     offsetof(SbFilmProblem, percolation_threshold)},
+    {"roughness-split", false, "1", "",
+     "Variance of the wall's heights less that of the seal's, over their sum; else 0 (--surface "
+     "persson)",
+     offsetof(SbFilmProblem, roughness_split)},
     {"hamaker", false, "J", "J", "Hamaker constant; else no adhesion (reynolds)",
      offsetof(SbFilmProblem, hamaker)},
     {"work-of-adhesion", false, "J/m2", "J/m2",

@@ -100,6 +100,7 @@ typedef struct {
   double film;           // unit of the law's gap [m]
   double pressure;       // unit of the law's pressure [Pa]
   double smooth_gap;     // scale of the gap as a function of t without a law
+  double split;          // s of the roughness: 1 all on the wall, -1 all on the seal
   double hamaker;        // A_H [J]; 0: off
   bool sealed;        // no flow: prescribed film pressure of the dry contact, all nodes cavitated
   bool cautious;      // Newton's method keeps the cavity after a shortened step
@@ -135,6 +136,10 @@ typedef struct {
   double asperity; // p_a
   double share;    // fraction of real contact area
   double share_t;  // d share/dt
+  double flow;     // pressure flow factor phi_p > 0
+  double flow_h;   // d flow/dh >= 0
+  double drag;     // what the wall drags along, h + s psi; its flow is lambda drag
+  double drag_h;   // d drag/dh
   // Coefficients of a Newton step:
   double p;                    // film pressure
   double k, r;                 // dp = dq + k dh; r: residual of the linearised elastic equation
@@ -398,6 +403,10 @@ SB_CHECKED bool sb_ehl_march(const SbEhlSolution *s);
 // Sets the state of `s`, on any mesh, from s->solver->march: a flowing film, or with `sealed` a
 // contact without flow whose film pressure state.given is that of the march.
 void sb_ehl_march_state(SbEhlSolution *s, bool sealed);
+
+// Returns the gap at which Reynolds' equation allows the largest slope of the pressure, for a flow
+// lambda `flux` with `flux` > 0, scaled: 3/2 of it without a flow factor, less with one.
+double sb_ehl_rough_steepest(const SbEhlCase *c, double flux);
 
 // Sets h, h_t, solid, solid_t, asperity and share at the parameter t; the coefficients of a Newton
 // step are not set.

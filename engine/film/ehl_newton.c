@@ -296,9 +296,12 @@ static void localise(const SbEhlSolution *s) {
     double m, m_h, m_p;
     sb_film_mobility(&m, &m_h, &m_p, &c->fluid, at->h, at->p);
     double h = at->h, slope = state->s[i];
+    m_h = m_h * at->flow + m * at->flow_h;
+    m_p *= at->flow;
+    m *= at->flow;
     double G = h * h * h * m;
-    at->s0 = -slope + (c->layers.lambda * h - state->flow) / G;
-    at->s_h = (c->layers.lambda - (3 * h * h * m + h * h * h * m_h) * slope) / G;
+    at->s0 = -slope + (c->layers.lambda * at->drag - state->flow) / G;
+    at->s_h = (c->layers.lambda * at->drag_h - (3 * h * h * m + h * h * h * m_h) * slope) / G;
     at->s_p = -h * h * h * m_p * slope / G;
     at->s_flow = -1 / G;
   }

@@ -10,7 +10,7 @@
 
 void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
   const SbEhlRough *rough = &c->rough;
-  SbRoughPoint p = {0};
+  SbRoughPoint p = {.flow = 1};
   if (rough->law != NULL) {
     sb_rough_law_at(&p, rough->law, t);
   } else { // smooth: linear above t = 1, falling exponentially to nothing below
@@ -18,15 +18,47 @@ void sb_ehl_rough_point(SbEhlRoughPoint *out, const SbEhlCase *c, double t) {
     p.gap = t >= 1 ? unit * t : unit * exp(t - 1);
     p.gap_slope = t >= 1 ? unit : p.gap;
   }
+  // The equation of a closed contact needs a remainder; it holds the gap where the wall's flow is
+  // the contact's.
+  static const double CLOSED = 1e-12;
   double pull_slope;
   double pull = sb_rough_pull(&pull_slope, &p, rough->hamaker);
-  *out = (SbEhlRoughPoint){.h = p.gap / rough->film,
+  const double flow_h = p.flow_slope / p.gap_slope * rough->film;
+  const double h = p.gap / rough->film, by = rough->split;
+  *out = (SbEhlRoughPoint){.h = h,
                            .h_t = p.gap_slope / rough->film,
                            .asperity = p.pressure / rough->pressure,
                            .solid = (p.pressure - pull) / rough->pressure,
                            .solid_t = (p.pressure_slope - pull_slope) / rough->pressure,
                            .share = p.share,
-                           .share_t = p.share_slope};
+                           .share_t = p.share_slope,
+                           .flow = fmax(p.flow, CLOSED),
+                           .flow_h = flow_h,
+                           .drag = h * (1 + by * (1 - p.flow)),
+                           .drag_h = 1 + by * (1 - p.flow - h * flow_h)};
+}
+
+typedef struct {
+  const SbEhlCase *c;
+  double flux;
+} Steepest;
+
+// (drag - flux) n - h d drag/dh with n = d ln(h^3 phi_p)/d ln h: positive above the gap with the
+// largest slope, (drag - flux)/(h^3 phi_p).
+static double beyond_steepest(double gap, const void *context) {
+  const Steepest *of = context;
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, of->c, sb_ehl_rough_of_gap(of->c, gap));
+  return (at.drag - of->flux) * (3 + gap * at.flow_h / at.flow) - gap * at.drag_h;
+}
+
+double sb_ehl_rough_steepest(const SbEhlCase *c, double flux) {
+  const bool obstructed = c->rough.law != NULL && c->rough.law->surface.threshold > 0;
+  // Thick films have the same drag with every split.
+  const double thick =
+      obstructed ? 1.5 * flux + 20 * c->rough.law->surface.sigma / c->rough.film : 0;
+  return obstructed ? sb_bisect(beyond_steepest, &(Steepest){c, flux}, thick, 0.5 * flux)
+                    : 1.5 * flux;
 }
 
 double sb_ehl_asperity_share(double asperity, double solid, double load) {
@@ -90,9 +122,11 @@ bool sb_ehl_rough_closed(const SbEhlCase *c) {
 static double lacking_slope(double ln_gap, const void *context) {
   const SbEhlCase *c = context;
   double h = exp(ln_gap);
-  double p = carried(c, h);
-  return 4.0 / 27 * c->layers.lambda * p -
-         h * h * sb_ehl_layers_inlet_slope(&c->layers) * sqrt(1 - p * p);
+  double p = carried(c, h), steepest = sb_ehl_rough_steepest(c, h);
+  SbEhlRoughPoint at;
+  sb_ehl_rough_point(&at, c, sb_ehl_rough_of_gap(c, steepest));
+  const double slope = (at.drag - h) / (steepest * steepest * steepest * at.flow);
+  return slope * c->layers.lambda * p - sb_ehl_layers_inlet_slope(&c->layers) * sqrt(1 - p * p);
 }
 
 // Flux film of a rough contact: inside, the fluid carries what Hertz's pressure has above p_a(h);
@@ -143,7 +177,7 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
   for (int i = 1; i < mesh->dofs; i++) {
     SbEhlRoughPoint at;
     sb_ehl_rough_point(&at, c, 0.5 * (state->t[i] + state->t[i - 1]));
-    resistance += (mesh->x[i] - mesh->x[i - 1]) / (at.h * at.h * at.h);
+    resistance += (mesh->x[i] - mesh->x[i - 1]) / (at.h * at.h * at.h * at.flow);
   }
   state->flow = c->rough.sealed
                     ? 0
@@ -154,9 +188,9 @@ void sb_ehl_rough_guess(SbEhlSolution *solution) {
     SbEhlRoughPoint at;
     sb_ehl_rough_point(&at, c, state->t[i]);
     p[i] = state->nodal[i] - at.solid;
-    state->cavity[i] =
-        c->rough.sealed || (c->layers.outlet <= 0 && c->layers.lambda > 0 &&
-                            mesh->x[i] > c->rough.inlet && c->layers.lambda * at.h > state->flow);
+    state->cavity[i] = c->rough.sealed ||
+                       (c->layers.outlet <= 0 && c->layers.lambda > 0 &&
+                        mesh->x[i] > c->rough.inlet && c->layers.lambda * at.drag > state->flow);
   }
   for (int i = 0; i < mesh->dofs; i++) {
     const SbEhlElement *e = &mesh->element[mesh->owner[i > 0 ? i - 1 : 0]];
@@ -175,7 +209,8 @@ SbStatus sb_ehl_rough_law(const SbRoughLaw **law, SbFilmSolver *solver,
                                   .sigma = problem->sigma,
                                   .sigma_over_beta = problem->sigma_over_beta,
                                   .modulus = problem->modulus,
-                                  .work = problem->work_of_adhesion};
+                                  .work = problem->work_of_adhesion,
+                                  .threshold = problem->percolation_threshold};
   *law = &solver->law;
   if (solver->law_ready && sb_rough_same_surface(&solver->law.surface, &surface)) {
     return SB_OK;
@@ -192,6 +227,7 @@ SbStatus sb_ehl_rough_case(SbEhlCase *c, SbFilmSolver *solver, const SbFilmScale
       .rows = true,
       .film = scale->film,
       .pressure = scale->pressure,
+      .split = problem->roughness_split,
       .hamaker = problem->hamaker,
       .smooth_gap = 0.01 * sb_ehl_layers_flux(&c->layers),
       .sealed = !(scale->lambda > 0) && c->layers.inlet == c->layers.outlet, // no flow at all

@@ -157,7 +157,7 @@ static double rupture_behind(const Nodes *at, int i) {
 // the minimum film, with the steepest fall, unless it cavitates; and the ends of its cavity.
 static void find_ends(double place[SB_EHL_FRONTS], const SbEhlCase *c, const Nodes *at) {
   static const double DIP = 0.95; // of the flux film; asperities that carry most leave less
-  const double steepest = 1.5 * at->flow / c->layers.lambda;
+  const double steepest = sb_ehl_rough_steepest(c, at->flow / c->layers.lambda);
   double least = DIP * at->flow / c->layers.lambda;
   SbEhlRoughPoint p;
   sb_ehl_rough_point(&p, c, at->t[0]);
@@ -196,7 +196,7 @@ static bool take_ends(SbEhlCase *c, const double place[SB_EHL_FRONTS], double fl
     }
     SbEhlRoughPoint p;
     sb_ehl_rough_point(&p, c, sb_ehl_rough_of_gap(c, flow / c->layers.lambda));
-    double layer = -p.solid_t / p.h_t * p.h * p.h * p.h / c->layers.lambda;
+    double layer = -p.solid_t / p.h_t * p.h * p.h * p.h * p.flow / c->layers.lambda;
     bool sharp = layer < 0.5 * inside && p.asperity > 1e-3;
     if (sharp || (k == SB_EHL_FRONT_RUPTURE && p.asperity > 1e-3)) {
       c->rough.front[k].X = place[k];

@@ -4,9 +4,10 @@
 // body instead of its full compliance, the film is one-dimensional:
 //
 //   p = q_r + E (h - h_r) - p_s(h)             p_s pressure of the solids
-//   p' = S(h) = (lambda h - kappa)/(h^3 m)     where the film is full; p = 0 in the cavity
+//   p' = S(h) = (lambda h - kappa)/(h^3 phi_p m)     where the film is full; p = 0 in the cavity
 //
-// S increases with h below 3/2 of the flux film kappa/lambda and decreases above it: below, the
+// S increases with h below 3/2 of the flux film kappa/lambda (less with a flow factor,
+// sb_ehl_rough_steepest()) and decreases above it: below, the
 // film depends on the downstream side, above on the upstream side (the splitting of Engquist and
 // Osher, Math. Comput. 36 (1981) 321). So a film that the wall transports is marched against the
 // flow, implicitly below and explicitly above; a flow that the end pressures drive through gaps
@@ -44,8 +45,9 @@ static double mobility(const SbEhlCase *c, double h, double p) {
 }
 
 // S(h) at the pressure of the step's begin.
-static double slope_at(const Local *l, double h) {
-  return (l->c->layers.lambda * h - l->kappa) / (h * h * h * mobility(l->c, h, l->p));
+static double slope_at(const Local *l, const SbEhlRoughPoint *at) {
+  return (l->c->layers.lambda * at->drag - l->kappa) /
+         (at->h * at->h * at->h * at->flow * mobility(l->c, at->h, l->p));
 }
 
 static double film_pressure(const Local *l, const SbEhlRoughPoint *at) {
@@ -61,9 +63,10 @@ static double settle(SbEhlRoughPoint *at, const Local *l, double t) {
     sb_ehl_rough_point(at, l->c, t);
     double lack = film_pressure(l, at) - l->p, rise = STIFFNESS;
     if (l->width != 0) {
-      const double S = slope_at(l, at->h);
+      const double S = slope_at(l, at), n = 3 + at->h * at->flow_h / at->flow;
       lack += l->width * S;
-      rise += l->width * (l->c->layers.lambda / (at->h * at->h * at->h) - 3 * S / at->h);
+      rise += l->width * (l->c->layers.lambda * at->drag_h / (at->h * at->h * at->h * at->flow) -
+                          n * S / at->h);
     }
     rise = rise * at->h_t - at->solid_t;
     *(lack > 0 ? &high : &low) = t;
@@ -105,8 +108,9 @@ static double march_along(SbEhlMarch *a, const SbEhlCase *c, double kappa) {
 // Marches with a flow; how much the inlet's pressure comes out too high (or the outlet's too low),
 // negative where more must flow in.
 static double march(SbEhlMarch *a, const SbEhlCase *c, double kappa) {
-  const double lambda = c->layers.lambda, steepest = 1.5 * kappa / lambda;
+  const double lambda = c->layers.lambda;
   const bool moves = lambda > 0;
+  const double steepest = moves && kappa > 0 ? sb_ehl_rough_steepest(c, kappa / lambda) : INFINITY;
   const double most = HIGH * (1 + c->layers.outlet);
   int i = a->count - 1;
   Local l = {c, a->offset[i], c->layers.outlet, 0, kappa};
@@ -124,7 +128,7 @@ static double march(SbEhlMarch *a, const SbEhlCase *c, double kappa) {
       const double width = a->x[i + 1] - a->x[i];
       l.p = p;
       l.width = 0;
-      double S = moves ? slope_at(&l, fmax(at.h, steepest)) : 0;
+      double S = moves ? slope_at(&l, at.h > steepest ? &at : &edge) : 0;
       l.offset = a->offset[i];
       // An implicit step while that stays below the steepest.
       const bool below = !moves || (at.h < steepest && film_pressure(&l, &edge) + width * S > p);
@@ -224,7 +228,7 @@ void sb_ehl_march_state(SbEhlSolution *s, bool sealed) {
     state->nodal[i] = p + at.solid;
     state->given[i] = p;
     state->cavity[i] = sealed || a->cavity[f < 0.5 ? k : k + 1];
-    state->s[i] = sealed ? 0 : slope_at(&l, at.h);
+    state->s[i] = sealed ? 0 : slope_at(&l, &at);
   }
   state->flow = sealed ? 0 : a->flow;
   state->H0 = 0;

@@ -194,6 +194,8 @@ static const SbFilmRange ranges[] = {
     {"asperity product", SB_FILM_IN_ASPERITY_PRODUCT, "", RANGE(gt_product), 0.0, 100.0},
     {"sigma", SB_FILM_IN_SIGMA, "m", RANGE(sigma), 0.0, 1.0},
     {"sigma/beta", SB_FILM_IN_SIGMA_OVER_BETA, "", RANGE(sigma_over_beta), 0.0, 1e3},
+    {"percolation threshold", 0, "", RANGE(percolation_threshold), 0.0, 0.7},
+    {"roughness split", 0, "", RANGE(roughness_split), -0.99, 1.0},
     {"Hamaker constant", SB_FILM_IN_HAMAKER, "J", RANGE(hamaker), 0.0, 1e-17},
     {"work of adhesion", SB_FILM_IN_WORK_OF_ADHESION, "J/m2", RANGE(work_of_adhesion), 0.0, 100.0},
     {"shear strength", SB_FILM_IN_SHEAR_STRENGTH, "Pa", RANGE(shear_strength), 0.0, 1e12},

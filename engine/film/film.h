@@ -91,7 +91,14 @@ typedef struct {
   double gt_product;      // zeta beta sigma [1], > 0 if rough
   double sigma;           // combined standard deviation of heights [m], > 0 if rough
   double sigma_over_beta; // sigma divided by the tip radius of the asperities [1], > 0 if rough
-  double hamaker;         // A_H of the van der Waals attraction across the gap [J]; 0: off
+  // Real contact area at which the last channel closes, 0 to 1, only with SB_ROUGH_PERSSON; 0: the
+  // roughness does not obstruct the flow.
+  double percolation_threshold;
+  // s, distribution of the roughness: (variance of the wall - that of the seal)/(their sum), -1
+  // to 1. The wall drags the flow u/2 (h + s (1 - phi_p) h) along. Only with percolation_threshold
+  // > 0.
+  double roughness_split;
+  double hamaker; // A_H of the van der Waals attraction across the gap [J]; 0: off
   // Work of adhesion of asperity tips [J/m2]; 0: off. Only with SB_ROUGH_GREENWOOD_TRIPP and
   // `hamaker` 0.
   double work_of_adhesion;

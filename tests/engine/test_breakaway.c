@@ -43,7 +43,7 @@ static int closing(double t, const double h[], double rate[], void *user) {
 }
 
 static void test_squeeze(void) {
-  static const SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1, 0.2e-6, 0.1, 6e6, 0};
+  static const SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1, 0.2e-6, 0.1, 6e6, 0, 0};
   SbRoughLaw law;
   g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
   for (int rough = 0; rough < 2; rough++) {

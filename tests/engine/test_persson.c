@@ -81,7 +81,7 @@ static void test_energy(void) {
     double power = 1 - 2 * s.hurst;
     double full =
         M_PI / 2 * modulus / 2 * s.amplitude * (pow(s.q1, power) - pow(s.q0, power)) / power;
-    SbRoughSurface surface = {SB_ROUGH_PERSSON, f[2], f[0], f[1], modulus, 0};
+    SbRoughSurface surface = {SB_ROUGH_PERSSON, f[2], f[0], f[1], modulus, 0, 0};
     SbRoughLaw law;
     g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
     // Trapezoids over ln p, from 1e-7 of the pressure that closes the shortest waves.

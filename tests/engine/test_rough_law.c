@@ -1,5 +1,6 @@
 // The rough contact's laws as a film asks them: tables against the formulas, and the pull across
 // the open gap.
+#include "engine/contact/rough/flow_factor.h"
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/contact/rough/rough_law.h"
@@ -9,7 +10,7 @@
 #include <math.h>
 
 static void test_laws(void) {
-  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6, 0};
+  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6, 0, 0};
   SbRoughLaw law;
   g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
   // Against the integrals themselves, off the table's nodes.
@@ -48,11 +49,75 @@ static void test_laws(void) {
   }
 }
 
+// Law of a surface that percolates, against table A7 of the reference page: p/p*, phi_p, S/sigma^3.
+static void test_flow(void) {
+  static const struct {
+    double load, share, gap, flow, conductance;
+  } rows[] = {
+      {0.02, 0.0088, 1.957, 0.794, 5.94},   {0.05, 0.0221, 1.507, 0.668, 2.29},
+      {0.1, 0.0441, 1.154, 0.526, 0.809},   {0.2, 0.0882, 0.793, 0.329, 0.164},
+      {0.3, 0.1319, 0.586, 0.180, 0.0361},  {0.4, 0.1752, 0.447, 0.105, 9.3e-3},
+      {0.5, 0.2180, 0.347, 0.070, 3.0e-3},  {0.6, 0.2602, 0.274, 0.038, 7.8e-4},
+      {0.7, 0.3016, 0.218, 0.012, 1.3e-4},  {0.8, 0.3421, 0.175, 1.8e-3, 9.9e-6},
+      {0.9, 0.3816, 0.141, 1.8e-4, 5.1e-7}, {1, 0.42, 0.1146, 0, 0},
+  };
+  static const double thick[][2] = {{5, 0.948}, {4, 0.925}, {3, 0.885}, {2, 0.801}};
+  const SbRoughSurface surface = {.model = SB_ROUGH_PERSSON,
+                                  .product = 0.1289,
+                                  .sigma = 1e-6,
+                                  .sigma_over_beta = 0.1,
+                                  .modulus = 6.5725154e6,
+                                  .threshold = 0.42};
+  SbRoughLaw law;
+  SbRoughPoint at, next;
+  SbSpectrum spectrum;
+  g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
+  g_assert_cmpint(sb_spectrum_from_asperities(&spectrum, 1e-6, 0.1, 0.1289, NULL), ==, SB_OK);
+  const double closing = sb_persson_pressure(&spectrum, spectrum.q1, surface.modulus, 0.42);
+  close_to("closing pressure", closing, 131753.65, 1e-7);
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    const double p = rows[i].load * closing, u = rows[i].gap;
+    const double t = sb_rough_law_of_pressure(&law, p);
+    sb_rough_law_at(&at, &law, t);
+    close_to("share", at.share, rows[i].share, 5e-3);
+    close_to("gap", at.gap / 1e-6, u, 5e-3);
+    double direct;
+    SbStatus found =
+        sb_flow_factors(&direct, &(double){log(2 * p / surface.modulus)}, 1, &spectrum, 0.42, NULL);
+    g_assert_cmpint(found, ==, SB_OK);
+    g_test_message("p/p* %g: phi %.4g, direct %.4g, page %g; S %.3g", rows[i].load, at.flow, direct,
+                   rows[i].flow, at.flow * pow(at.gap * 1e6, 3));
+    if (rows[i].load == 1) {
+      g_assert_cmpfloat(at.flow, <, 1e-12);
+    } else {
+      close_to("table", at.flow, direct, rows[i].load > 0.85 ? 0.15 : 0.01);
+      close_to("flow factor", at.flow, rows[i].flow, rows[i].load <= 0.7 ? 0.1 : 0.5);
+      close_to("conductance", at.flow * pow(at.gap * 1e6, 3), rows[i].conductance,
+               rows[i].load <= 0.7 ? 0.1 : 0.5);
+      sb_rough_law_at(&next, &law, t + 1e-5);
+      close_to("its slope", (next.flow - at.flow) / 1e-5, at.flow_slope, 1e-3);
+    }
+  }
+  for (size_t i = 0; i < G_N_ELEMENTS(thick); i++) {
+    sb_rough_law_at(&at, &law, sb_rough_law_of_gap(&law, thick[i][0] * 1e-6));
+    close_to("thick film", at.flow, thick[i][1], 5e-3);
+  }
+  sb_rough_law_at(&at, &law, sb_rough_law_of_pressure(&law, 1.01 * closing));
+  g_assert_cmpfloat(at.flow, ==, 0);
+  g_assert_cmpfloat(at.flow_slope, ==, 0);
+  SbRoughSurface wrong = surface;
+  wrong.model = SB_ROUGH_GREENWOOD_TRIPP;
+  g_assert_cmpint(sb_rough_law_init(&law, &wrong, NULL), ==, SB_ERROR_INPUT);
+  wrong.model = SB_ROUGH_PERSSON;
+  wrong.threshold = 1;
+  g_assert_cmpint(sb_rough_law_init(&law, &wrong, NULL), ==, SB_ERROR_RANGE);
+}
+
 // The tables of another modulus are the same to the bit; those of other heights, or of tips that
 // stick, serve nobody.
 static void test_like(void) {
   for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
-    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-6, 0.1, 6.5725e6, 0};
+    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-6, 0.1, 6.5725e6, 0, 0};
     SbRoughLaw known, anew, like;
     g_assert_cmpint(sb_rough_law_init(&known, &surface, NULL), ==, SB_OK);
     for (int k = 0; k < 3; k++) {
@@ -69,7 +134,7 @@ static void test_like(void) {
     surface.modulus = 0;
     g_assert_cmpint(sb_rough_law_like(&like, &surface, &anew, NULL), ==, SB_ERROR_RANGE);
   }
-  SbRoughSurface sticks = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6, 0.05};
+  SbRoughSurface sticks = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 1e-6, 0.1, 6.5725e6, 0.05, 0};
   SbRoughLaw known, anew, like;
   g_assert_cmpint(sb_rough_law_init(&known, &sticks, NULL), ==, SB_OK);
   sticks.modulus = 3.1e6;
@@ -83,7 +148,7 @@ static void test_like(void) {
 static void test_pull(void) {
   const double hamaker = 1.35e-19;
   for (int model = SB_ROUGH_GREENWOOD_TRIPP; model <= SB_ROUGH_PERSSON; model++) {
-    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-7, 0.1, 6.5725e6, 0};
+    SbRoughSurface surface = {(SbRoughModel)model, 0.1289, 1e-7, 0.1, 6.5725e6, 0, 0};
     SbRoughLaw law;
     g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
     for (double gap = 3e-9; gap < 4e-7; gap *= 1.7) {
@@ -198,7 +263,7 @@ static void test_fuller_tabor(void) {
 // Tables of tips that stick: to Greenwood and Tripp's without work; against the sums between nodes,
 // slopes against differences; the law turns to a pull that grows with the work of adhesion.
 static void test_sticking_law(void) {
-  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 2e-7, 0.1, 6.5725e6, 0};
+  SbRoughSurface surface = {SB_ROUGH_GREENWOOD_TRIPP, 0.1289, 2e-7, 0.1, 6.5725e6, 0, 0};
   SbRoughLaw bare, law;
   SbRoughPoint at, was, next;
   g_assert_cmpint(sb_rough_law_init(&bare, &surface, NULL), ==, SB_OK);
@@ -251,6 +316,7 @@ static void test_sticking_law(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/rough-law/tables", test_laws);
+  g_test_add_func("/rough-law/flow", test_flow);
   g_test_add_func("/rough-law/like", test_like);
   g_test_add_func("/rough-law/pull", test_pull);
   g_test_add_func("/rough-law/tip", test_tip);

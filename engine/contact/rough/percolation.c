@@ -36,9 +36,7 @@ static void constriction(SbPercolation *out, const SbPercolationProblem *p, doub
   if (!out->percolates) {
     return;
   }
-  // The mean-square slope grows as q^(2 - 2H), from nothing at q0 to all of it at q1.
-  double power = 2 - 2 * s->hurst, share = pow(critical / s->slope, 2);
-  out->constriction_q = pow((1 - share) * pow(s->q0, power) + share * pow(s->q1, power), 1 / power);
+  out->constriction_q = sb_spectrum_wave(s, pow(critical / s->slope, 2));
   out->constriction_gap = local_gap(p, out->constriction_q, pressure);
   out->leak_rate = pow(out->constriction_gap, 3) / (12 * p->viscosity) * p->pressure_drop *
                    p->circumference / p->width;

@@ -71,6 +71,16 @@ static double slope_square(const SbSpectrum *s, double q) {
   return s->amplitude * moment(s->hurst, 2, s->q0, q);
 }
 
+double sb_spectrum_wave(const SbSpectrum *s, double part) {
+  // The mean-square slope grows as q^(2 - 2H), from nothing at q0.
+  const double power = 2 - 2 * s->hurst;
+  return pow((1 - part) * pow(s->q0, power) + part * pow(s->q1, power), 1 / power);
+}
+
+double sb_spectrum_height_beyond(const SbSpectrum *s, double q) {
+  return sqrt(s->amplitude * moment(s->hurst, 0, fmin(fmax(q, s->q0), s->q1), s->q1));
+}
+
 double sb_persson_area_share(const SbSpectrum *s, double q, double modulus, double pressure) {
   double slope2 = slope_square(s, q);
   if (slope2 <= 0) {
@@ -92,7 +102,7 @@ static double inner_integrand(double a) {
 
 void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *s, double q) {
   // The inner integral, summed downwards from a = 6.2, where it is 1e-18.
-  enum { INNER = SB_PERSSON_INNER, PANELS = SB_PERSSON_PANELS, SUB = 4 };
+  enum { INNER = SB_PERSSON_INNER, SUB = 4 };
   gap->begin = log(1e-4);
   gap->step = (log(6.2) - gap->begin) / (INNER - 1);
   double G = inner_integrand(6.2) / (2 * 6.2 * 6.2);
@@ -107,6 +117,11 @@ void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *s, double q) {
     gap->value[i] = log(G);
     gap->slope[i] = -inner_integrand(exp(x)) / G;
   }
+  sb_persson_gap_move(gap, s, q);
+}
+
+void sb_persson_gap_move(SbPerssonGap *gap, const SbSpectrum *s, double q) {
+  enum { PANELS = SB_PERSSON_PANELS };
   // u = sqrt(pi) int q^2 C w G dq with w = (pi int_q k^3 C)^(-1/2) = (slope2/2)^(-1/2). The start
   // is an integrable singularity of w, removed by integrating over v^2.
   q = fmin(fmax(q, s->q0), s->q1);

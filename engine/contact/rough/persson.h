@@ -36,6 +36,13 @@ typedef struct {
 SbStatus sb_spectrum_from_asperities(SbSpectrum *out, double sigma, double sigma_over_beta,
                                      double product, SbReport *report);
 
+// Returns the wave number [1/m] up to which the components have the fraction `part` (0 to 1) of the
+// mean-square slope h'(q1)^2.
+double sb_spectrum_wave(const SbSpectrum *spectrum, double part);
+
+// Returns the rms height [m] of the components beyond the wave number q [1/m].
+double sb_spectrum_height_beyond(const SbSpectrum *spectrum, double q);
+
 // Returns the fraction of real contact at the mean `pressure` p [Pa] at the wave number q [1/m],
 // which here and below is limited to the range from q0 to q1. `modulus` is E' with 2/E' = sum (1 -
 // nu^2)/E [Pa].
@@ -62,6 +69,9 @@ typedef struct {
 
 // Sets all fields for the wave number q [1/m].
 void sb_persson_gap_init(SbPerssonGap *gap, const SbSpectrum *spectrum, double q);
+
+// Changes the wave number of a `gap` of the same spectrum to q; faster than the above.
+void sb_persson_gap_move(SbPerssonGap *gap, const SbSpectrum *spectrum, double q);
 
 // Returns the separation [m] at `log_p` = ln(p/E*), with the pressure p on the area that is in
 // contact at q, and writes the derivative of the separation with respect to log_p to *slope.

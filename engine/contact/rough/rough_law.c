@@ -4,6 +4,7 @@
 #include "engine/contact/rough/rough_law.h"
 
 #include "engine/contact/inputs.h"
+#include "engine/contact/rough/flow_factor.h"
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/contact/rough/persson.h"
 #include "engine/numeric/root.h"
@@ -11,7 +12,7 @@
 #include <math.h>
 #include <string.h>
 
-enum { GAP, PRESSURE, SHARE, PULL };
+enum { GAP, PRESSURE, SHARE, PULL, FLOW };
 
 static const SbRoughKind kinds[SB_ROUGH_COUNT] = {
     [SB_ROUGH_NONE] = {.name = "none"},
@@ -113,6 +114,40 @@ static SbStatus table_greenwood_tripp(SbRoughLaw *law, SbReport *report) {
 
 // ---------------------------------------------------------------- Persson
 
+// t at which p = p_1 ln(1 + exp(-t)) is p_1 times `soft`.
+static double persson_t(double soft) {
+  return -log(expm1(soft));
+}
+
+// phi_p^(1/4) from node `closed`, the last one without flow, with slopes that keep it monotone
+// (F.N. Fritsch & R.E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238, sufficient limit).
+static SbStatus table_flow(SbRoughLaw *law, const SbSpectrum *spectrum, int closed,
+                           SbReport *report) {
+  // Beyond, 1 - phi_p decreases with the square of the gap.
+  const int last = (int)fmin(law->count - 1, closed + SB_FLOW_PRESSURES);
+  double log_p[SB_FLOW_PRESSURES], phi[SB_FLOW_PRESSURES];
+  double *value = law->value[FLOW], *slope = law->slope[FLOW];
+  for (int i = closed + 1; i <= last; i++) {
+    log_p[i - closed - 1] = M_LN2 - law->value[PRESSURE][i];
+  }
+  SbStatus status =
+      sb_flow_factors(phi, log_p, last - closed, spectrum, law->surface.threshold, report);
+  if (status != SB_OK) {
+    return status;
+  }
+  for (int i = closed + 1; i < law->count; i++) {
+    const double wider = exp(2 * (law->value[GAP][last] - law->value[GAP][i]));
+    const double flow = i <= last ? phi[i - closed - 1] : 1 - (1 - phi[last - closed - 1]) * wider;
+    value[i] = fmax(value[i - 1], sqrt(sqrt(flow)));
+  }
+  for (int i = closed; i < law->count - 1; i++) {
+    const double below = i > closed ? value[i] - value[i - 1] : 0, above = value[i + 1] - value[i];
+    slope[i] = fmin(0.5 * (below + above), 3 * fmin(below, above)) / law->step;
+  }
+  slope[law->count - 1] = (value[law->count - 1] - value[law->count - 2]) / law->step;
+  return status;
+}
+
 static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
   const SbRoughSurface *s = &law->surface;
   SbSpectrum spectrum;
@@ -125,9 +160,13 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
   sb_persson_gap_init(&gap, &spectrum, spectrum.q0);
   // Pressures over E* = E'/2; p_1 is half of that at which the shortest waves close.
   double p_1 = 0.5 * spectrum.slope / M_SQRT2;
-  law->begin = -11;
   law->step = 0.1;
   law->count = 411;
+  // The threshold is a node; without one the grid is about the same.
+  const double threshold = s->threshold > 0 ? s->threshold : 0.5;
+  const double closing = sb_persson_pressure(&spectrum, spectrum.q1, 2, threshold);
+  const int closed = 108;
+  law->begin = s->threshold > 0 ? persson_t(closing / p_1) - closed * law->step : -11;
   for (int i = 0; i < law->count; i++) {
     double t = law->begin + law->step * i;
     double soft = t > 0 ? log1p(exp(-t)) : -t + log1p(exp(t));
@@ -143,7 +182,7 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
     law->value[SHARE][i] = log(erf(z));
     law->slope[SHARE][i] = 2 / sqrt(M_PI) * z * exp(-z * z) / erf(z) * by_t;
   }
-  return sb_succeed(report);
+  return s->threshold > 0 ? table_flow(law, &spectrum, closed, report) : sb_succeed(report);
 }
 
 // ---------------------------------------------------------------- both
@@ -161,6 +200,12 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
                          "tips that stick need a work of adhesion and the surface "
                          "greenwood-tripp");
   }
+  if (!(surface->threshold >= 0 && surface->threshold < 1)) {
+    return sb_fail(report, SB_ERROR_RANGE, "the percolation threshold is not in 0 to 1");
+  }
+  if (surface->threshold > 0 && !sb_rough_kind(surface->model)->spectrum) {
+    return sb_fail(report, SB_ERROR_INPUT, "only the surface persson has a percolation threshold");
+  }
   static SbStatus (*const table[SB_ROUGH_COUNT])(SbRoughLaw *, SbReport *) = {
       [SB_ROUGH_GREENWOOD_TRIPP] = table_greenwood_tripp, [SB_ROUGH_PERSSON] = table_persson};
   return surface->model != SB_ROUGH_NONE
@@ -170,7 +215,7 @@ SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbRep
 
 static bool same_heights(const SbRoughSurface *a, const SbRoughSurface *b) {
   return a->model == b->model && a->product == b->product && a->sigma == b->sigma &&
-         a->sigma_over_beta == b->sigma_over_beta;
+         a->sigma_over_beta == b->sigma_over_beta && a->threshold == b->threshold;
 }
 
 bool sb_rough_same_surface(const SbRoughSurface *a, const SbRoughSurface *b) {
@@ -210,6 +255,19 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t) {
   if (quantities > PULL) {
     out->pull = law->surface.modulus * exp(-v[PULL] - beyond * by[PULL]);
     out->pull_slope = -out->pull * by[PULL];
+  }
+  out->flow = 1;
+  out->flow_slope = 0;
+  if (law->surface.threshold > 0) {
+    double root = sb_hermite(&by[FLOW], fmin(fmax(f - i, 0), 1), law->step, &law->value[FLOW][i],
+                             &law->slope[FLOW][i]);
+    out->flow = root * root * root * root;
+    out->flow_slope = beyond < 0 ? 0 : 4 * root * root * root * by[FLOW];
+    if (beyond > 0) { // as of thick films, 1 - phi_p decreases with the square of the gap
+      double rest = (1 - out->flow) * pow(law->surface.sigma * exp(v[GAP]) / out->gap, 2);
+      out->flow = 1 - rest;
+      out->flow_slope = 2 * rest * out->gap_slope / out->gap;
+    }
   }
   // Beyond the closed end the share stays.
   double log_share = v[SHARE] + fmax(beyond, 0) * by[SHARE];

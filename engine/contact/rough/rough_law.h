@@ -14,7 +14,10 @@
 //   With `work` > 0 their tips adhere (asperity.h, radius beta/2, surfaces separating). p is then
 // the elastic pressure; the attraction ("pull") is tabulated separately, so the load is p - pull.
 // Both vanish at a gap that depends on the stretch of a tip.
-//   Persson (persson.h): mean separation and real area against the pressure.
+//   Persson (persson.h): mean separation and real area against the pressure. With a percolation
+// `threshold` the roughness obstructs the flow by the pressure flow factor phi_p (flow_factor.h),
+// which is 0 from the threshold on; the table has a node there. Greenwood and Tripp's law, that of
+// the thesis, has no threshold, and phi_p is 1.
 //
 // All are tabulated against a parameter t that decreases as the surfaces close: t = lambda, or p =
 // p_1 ln(1 + exp(-t)). Gap and pressure vary smoothly with t from light to full contact, as
@@ -51,10 +54,13 @@ typedef struct {
   double sigma_over_beta; // sigma divided by the tip radius, > 0
   double modulus;         // E', 2/E' = sum (1 - nu^2)/E [Pa] > 0
   double work; // work of adhesion of the tips [J/m2] >= 0; 0: no adhesion; GREENWOOD_TRIPP only
+  // Fraction of real contact at which the last channel closes, 0 to 1; 0: the roughness does not
+  // obstruct the flow. PERSSON only.
+  double threshold;
 } SbRoughSurface;
 
 // Capacity of the tables, and number of tabulated quantities.
-enum { SB_ROUGH_NODES_MAX = 448, SB_ROUGH_QUANTITIES = 4 };
+enum { SB_ROUGH_NODES_MAX = 448, SB_ROUGH_QUANTITIES = 5 };
 
 // Largest stretch of a tip of the smallest Tabor parameter divided by sigma; above it the surfaces
 // adhere everywhere.
@@ -66,8 +72,8 @@ typedef struct {
   SbAsperity tip;     // sb_rough_tip(surface) if work > 0, else zero
   int count;          // nodes
   double begin, step; // t of the first node; spacing
-  // ln(h/sigma), -ln(p/E'), ln of the real area fraction (not limited), -ln(pull/E'); derivatives
-  // with respect to t.
+  // ln(h/sigma), -ln(p/E'), ln of the real area fraction (not limited), -ln(pull/E') (adhesion),
+  // phi_p^(1/4) (threshold); derivatives with respect to t.
   double value[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
   double slope[SB_ROUGH_QUANTITIES][SB_ROUGH_NODES_MAX];
 } SbRoughLaw;
@@ -78,20 +84,21 @@ typedef struct {
   double pressure, pressure_slope; // p [Pa], dp/dt < 0
   double pull, pull_slope;         // attraction of adhering tips [Pa]; 0 without
   double share, share_slope;       // fraction of real contact, at most 1; d/dt
+  double flow, flow_slope;         // phi_p, 0 to 1; d/dt >= 0
 } SbRoughPoint;
 
-// Computes the tables (1 ms; 10 ms with adhering tips). SB_ERROR_RANGE: a parameter is not
-// positive, or tips stretch too far. SB_ERROR_INFEASIBLE: no random surface has this product
-// (PERSSON). SB_ERROR_INPUT: SB_ROUGH_NONE, `work` < 0, or `work` > 0 with another model than
-// GREENWOOD_TRIPP.
+// Computes the tables (1 ms; 10 ms with adhering tips or a threshold). SB_ERROR_RANGE: a parameter
+// is not positive, tips stretch too far, or the threshold is not in 0 to 1. SB_ERROR_INFEASIBLE: no
+// random surface has this product (PERSSON). SB_ERROR_INPUT: SB_ROUGH_NONE, `work` < 0, or `work` >
+// 0 with another model than GREENWOOD_TRIPP, or a threshold with another than PERSSON.
 SbStatus sb_rough_law_init(SbRoughLaw *law, const SbRoughSurface *surface, SbReport *report);
 
 // Returns whether all parameters of two surfaces are equal.
 bool sb_rough_same_surface(const SbRoughSurface *a, const SbRoughSurface *b);
 
 // Computes the tables like sb_rough_law_init(), with its errors. Copies the tables of `known`
-// instead (NULL: none; may be `law` itself) if both surfaces have equal model, product, sigma and
-// sigma_over_beta, and no adhesion; the modulus may differ.
+// instead (NULL: none; may be `law` itself) if both surfaces have equal model, product, sigma,
+// sigma_over_beta and threshold, and no adhesion; the modulus may differ.
 SbStatus sb_rough_law_like(SbRoughLaw *law, const SbRoughSurface *surface, const SbRoughLaw *known,
                            SbReport *report);
 
