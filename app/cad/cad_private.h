@@ -49,13 +49,14 @@ SbArc sb_cad_circle(const SbCadPiece *piece);
 // from the line or circle [m], never negative, to *off.
 double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 
-// Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
-// one point, and pieces on the line y = 0, of no length or drawn twice are ignored. Each closed
-// chain, and each open one that ends on that line, becomes a body about the line y = 0 with x as
-// drawn and r = |y|: the part at y >= 0, or below if nothing is above; outlines without area do
-// not. Appends the bodies to cad->bodies, with the name `name`, and warnings for pieces that were
-// drawn twice or close to no outline. The caller then calls sb_cad_settle().
-void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
+// Finds the outlines in `entities` (of GArray of SbCadPiece) about the line y = 0, with x as drawn
+// and r = |y|: those above it, or below if there are none above. Ends within `gap` [m] are one
+// point; the line y = 0 closes what ends on it. Entities that close by themselves are outlines;
+// edges that two of them share vanish. Of other pieces, in any order, an outline is the outer
+// boundary of those that are connected. Appends them as bodies, with the name `name`, to
+// cad->bodies, and warnings on what was ignored and on halves that differ. The caller then calls
+// sb_cad_settle().
+void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap);
 
 // Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the
 // axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines() (10 nm): the

@@ -41,7 +41,7 @@ typedef struct {
   GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
   GHashTable *line_types; // the same -> its type of lines
   GPtrArray *names;       // of the layers with pieces, in order of appearance
-  GPtrArray *layers;      // of GArray of SbCadPiece [m], in the order of `names`
+  GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbCadPiece [m]
   GHashTable *left_out;   // type and reason -> count
   GArray *centre;         // of SbCadPiece [m]: centre lines
   guint pieces, items, placed;
@@ -83,7 +83,7 @@ static void count_left_out(Drawing *drawing, const char *type, const char *reaso
   g_hash_table_insert(drawing->left_out, counted, GUINT_TO_POINTER(count + 1));
 }
 
-static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GArray *pieces,
+static bool add_pieces(Drawing *drawing, const char *name, bool centre, GArray *pieces,
                        GError **error) {
   guint layer = 0;
   while (layer < drawing->names->len &&
@@ -92,10 +92,13 @@ static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GA
   }
   if (!centre && layer == drawing->names->len) {
     g_ptr_array_add(drawing->names, g_strdup(name));
-    g_ptr_array_add(drawing->layers, g_array_new(FALSE, FALSE, sizeof(SbCadPiece)));
+    g_ptr_array_add(drawing->layers, g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref));
   }
-  g_array_append_vals(centre ? drawing->centre : drawing->layers->pdata[layer], pieces->data,
-                      pieces->len);
+  if (centre) {
+    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
+  } else {
+    g_ptr_array_add(drawing->layers->pdata[layer], g_array_ref(pieces));
+  }
   drawing->pieces += pieces->len;
   return (drawing->pieces <= DXF_PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
          sb_app_error_input(error,
@@ -292,10 +295,13 @@ static double below(const Drawing *drawing) {
   const double away = 1e-3;
   double low = INFINITY;
   for (guint k = 0; k < drawing->layers->len; k++) {
-    const GArray *pieces = drawing->layers->pdata[k];
-    for (guint i = 0; i < pieces->len; i++) {
-      const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
-      low = fmin(low, fmin(p->y0, p->y1) - fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0));
+    const GPtrArray *entities = drawing->layers->pdata[k];
+    for (guint i = 0; i < entities->len; i++) {
+      const GArray *pieces = entities->pdata[i];
+      for (guint n = 0; n < pieces->len; n++) {
+        const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, n);
+        low = fmin(low, fmin(p->y0, p->y1) - fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0));
+      }
     }
   }
   return low - away;
@@ -349,13 +355,16 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
   const SbDxfMap axis = find_axis(cad, drawing, choices);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
-    GArray *pieces = drawing->layers->pdata[k];
-    for (guint i = 0; i < pieces->len; i++) {
-      SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-      *piece = sb_dxf_place(&axis, piece);
+    const GPtrArray *entities = drawing->layers->pdata[k];
+    for (guint i = 0; i < entities->len; i++) {
+      const GArray *pieces = entities->pdata[i];
+      for (guint n = 0; n < pieces->len; n++) {
+        SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, n);
+        *piece = sb_dxf_place(&axis, piece);
+      }
     }
     g_autofree char *shown = sb_printable(name, strlen(name));
-    sb_cad_outlines(cad, pieces, shown, choices->join > 0 ? choices->join : GAP);
+    sb_cad_outlines(cad, entities, shown, choices->join > 0 ? choices->join : GAP);
   }
   sb_cad_settle(cad, choices);
   left_out(cad, drawing);
@@ -402,7 +411,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .line_types = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
-      .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref),
+      .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
       .unit = g_strdup(choices->unit),
   };
