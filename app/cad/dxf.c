@@ -31,7 +31,8 @@ static const double GAP = 1e-6, CLOSABLE = 0.2e-3;
 // A block, or model space.
 typedef struct {
   double base[2];
-  GArray *items; // of SbDxfItem
+  bool elsewhere; // an external reference
+  GArray *items;  // of SbDxfItem
 } Block;
 
 typedef struct {
@@ -57,15 +58,22 @@ static gpointer find(GHashTable *table, const char *name) {
   return g_hash_table_lookup(table, key);
 }
 
-// Returns whether an entity on `layer` is a line whose type, or the layer's, or the layer's name
-// begins as those of centre lines do.
-static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer) {
+// Returns whether an entity on `layer` is a straight line, in one or more pieces, whose type, or
+// the layer's, or the layer's name begins as those of centre lines do.
+static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer,
+                           const GArray *pieces) {
   static const char *const starts[] = {SB_DXF_CENTRE};
   const bool by_layer =
       *entity->line_type == '\0' || g_ascii_strcasecmp(entity->line_type, "bylayer") == 0;
   const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
-  bool centre = false;
-  for (size_t i = 0; sb_dxf_is(entity, "LINE") && i < G_N_ELEMENTS(starts); i++) {
+  bool centre = false, straight = pieces->len > 0;
+  for (guint i = 0; i < pieces->len; i++) {
+    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    double off;
+    (void)sb_cad_place(&g_array_index(pieces, SbCadPiece, 0), piece->x1, piece->y1, &off);
+    straight = straight && piece->bulge == 0 && off <= GAP;
+  }
+  for (size_t i = 0; straight && i < G_N_ELEMENTS(starts); i++) {
     const size_t length = strlen(starts[i]);
     centre = centre || g_ascii_strncasecmp(layer, starts[i], length) == 0 ||
              (type != NULL && g_ascii_strncasecmp(type, starts[i], length) == 0);
@@ -137,8 +145,9 @@ static bool place_insert(Drawing *drawing, const SbDxfEntity *entity, const SbDx
   const double sx = entity->list[SB_DXF_WEIGHT]->len > 0 ? n[41] : 1;
   const double sy = entity->list[SB_DXF_BULGE]->len > 0 ? n[42] : 1;
   const Block *block = find(drawing->blocks, entity->name);
-  if (block == NULL || sx == 0 || sy == 0) {
-    count_left_out(drawing, "INSERT", "");
+  const bool elsewhere = block != NULL && block->elsewhere && block->items->len == 0;
+  if (block == NULL || elsewhere || sx == 0 || sy == 0) {
+    count_left_out(drawing, "INSERT", elsewhere ? " of another file" : "");
     return true;
   }
   if (depth >= DXF_DEPTH_MAX) {
@@ -178,7 +187,7 @@ static bool place_entity(Drawing *drawing, const SbDxfEntity *entity, const SbDx
     count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
   }
-  return add_pieces(drawing, on, is_centre_line(drawing, entity, on), pieces, error);
+  return add_pieces(drawing, on, is_centre_line(drawing, entity, on, pieces), pieces, error);
 }
 
 // Places all entities of a block; `layer` of its INSERT.
@@ -231,6 +240,7 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
     } else {
       *open = g_new0(Block, 1);
       (*open)->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
+      (*open)->elsewhere = ((int)entity.number[70] & (4 | 8)) != 0; // also as an overlay
       (*open)->base[0] = entity.number[10];
       (*open)->base[1] = entity.number[20];
       g_hash_table_replace(drawing->blocks, key, *open);

@@ -59,14 +59,19 @@ static void test_blocks(void) {
   drawing_put(dxf, 0, "MTEXT");
   drawing_put(dxf, 8, "0");
   drawing_put(dxf, 0, "ENDBLK");
+  begin_block(dxf, "XREF", 0, 0);
+  drawing_put(dxf, 70, "4");
+  drawing_put(dxf, 1, "part.dwg");
+  drawing_put(dxf, 0, "ENDBLK");
   begin_entities(dxf);
   // OUTER's point (3, 4) comes to the origin, its 30 degrees to none.
   const double c = cos(G_PI / 6), s = sin(G_PI / 6);
   put_insert(dxf, "OUTER", -(3 * c + 4 * s), -(4 * c - 3 * s), 1, 1, -30);
   put_insert(dxf, "NOWHERE", 0, 0, 1, 1, 0);
+  put_insert(dxf, "XREF", 0, 0, 1, 1, 0);
   drawing_end(dxf);
   g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
-  drawing_check_stem_alone(cad, "left out: 1 INSERT, 1 MTEXT");
+  drawing_check_stem_alone(cad, "left out: 1 INSERT, 1 INSERT of another file, 1 MTEXT");
 }
 
 // A circle that is stretched to an ellipse is revolved to a torus of its area; a row of them.
@@ -316,8 +321,26 @@ static void test_centre_line(void) {
     drawing_put(tables, 0, "ENDSEC");
     g_string_insert(dxf, (gssize)at, tables->str);
     put_square(dxf, "part", 0);
-    drawing_line(dxf, lines[i].layer, -5, -1, 15, -1);
-    drawing_put(dxf, 6, "%s", lines[i].type);
+    if (i % 3 == 0) {
+      drawing_line(dxf, lines[i].layer, -5, -1, 15, -1);
+      drawing_put(dxf, 6, "%s", lines[i].type);
+    } else { // in two pieces, as POLYLINE or LWPOLYLINE
+      drawing_put(dxf, 0, i % 3 == 1 ? "POLYLINE" : "LWPOLYLINE");
+      drawing_put(dxf, 8, "%s", lines[i].layer);
+      drawing_put(dxf, 6, "%s", lines[i].type);
+      drawing_put(dxf, 70, "0");
+      for (int k = 0; k < 3; k++) {
+        if (i % 3 == 1) {
+          drawing_put(dxf, 0, "VERTEX");
+          drawing_put(dxf, 8, "%s", lines[i].layer);
+        }
+        drawing_put(dxf, 10, "%d", 10 * k - 5);
+        drawing_put(dxf, 20, "-1");
+      }
+      if (i % 3 == 1) {
+        drawing_put(dxf, 0, "SEQEND");
+      }
+    }
     drawing_end(dxf);
     g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
     g_assert_cmpuint(cad->bodies->len, ==, 1);
