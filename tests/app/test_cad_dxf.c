@@ -487,6 +487,24 @@ static void test_halves(void) {
   }
 }
 
+// A circle of more lines than a half-section may have pieces, next to a straight side.
+static void test_many_pieces(void) {
+  g_autoptr(GString) dxf = drawing_begin(4);
+  const int count = 2000;
+  for (int i = 0; i < count; i++) {
+    const double a = M_PI * i / count, b = M_PI * (i + 1) / count;
+    drawing_line(dxf, "0", 5 * cos(a), 9 + 5 * sin(a), 5 * cos(b), 9 + 5 * sin(b));
+  }
+  drawing_line(dxf, "0", -5, 9, 5, 9);
+  drawing_end(dxf);
+  g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpstr(body->why, ==, NULL);
+  g_assert_cmpuint(body->profile->len, <=, 6);
+  const double volume = 2 * M_PI * (9 * M_PI * 25 / 2 + 2 * 125 / 3.0);
+  g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / volume, 1, 1e-6);
+}
+
 // Lines drawn twice, also in part and the other way round, lines of no length, gaps, and circles
 // that touch the axis.
 static void test_untidy(void) {
@@ -590,6 +608,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/shared-edges", test_shared_edges);
   g_test_add_func("/cad/edges", test_edges);
   g_test_add_func("/cad/halves", test_halves);
+  g_test_add_func("/cad/many-pieces", test_many_pieces);
   g_test_add_func("/cad/untidy", test_untidy);
   g_test_add_func("/cad/units", test_units);
   return g_test_run();
