@@ -25,8 +25,8 @@ enum {
 };
 
 // Ends are one point within this, unless `join` is given; drawings round to a thousandth of their
-// unit at worst. Larger gaps that may be errors of drawing [m].
-static const double GAP = 1e-6, CLOSABLE = 0.2e-3;
+// unit at worst. Larger gaps that may be errors of drawing; distance of an axis below all [m].
+static const double GAP = 1e-6, CLOSABLE = 0.2e-3, AWAY = 1e-3;
 
 // A block, or model space.
 typedef struct {
@@ -45,6 +45,7 @@ typedef struct {
   GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbCadPiece [m]
   GHashTable *left_out;   // type and reason -> count
   GArray *centre;         // of SbCadPiece [m]: centre lines
+  double low;             // all pieces are above this y [m]
   guint pieces, items, placed;
   char *unit;   // owned; NULL: not known
   double scale; // its length [m]
@@ -106,6 +107,12 @@ static bool add_pieces(Drawing *drawing, const char *name, bool centre, GArray *
     g_array_append_vals(drawing->centre, pieces->data, pieces->len);
   } else {
     g_ptr_array_add(drawing->layers->pdata[layer], g_array_ref(pieces));
+  }
+  // No arc goes further from its chord than that is long times the bulge.
+  for (guint i = 0; !centre && i < pieces->len; i++) {
+    const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+    const double deep = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
+    drawing->low = fmin(drawing->low, fmin(p->y0, p->y1) - deep);
   }
   drawing->pieces += pieces->len;
   return (drawing->pieces <= DXF_PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
@@ -299,24 +306,6 @@ static bool read_file(Drawing *drawing, GError **error) {
                              "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"));
 }
 
-// Returns a y that all pieces are above [m]. No arc goes further from its chord than that is long
-// times the bulge.
-static double below(const Drawing *drawing) {
-  const double away = 1e-3;
-  double low = INFINITY;
-  for (guint k = 0; k < drawing->layers->len; k++) {
-    const GPtrArray *entities = drawing->layers->pdata[k];
-    for (guint i = 0; i < entities->len; i++) {
-      const GArray *pieces = entities->pdata[i];
-      for (guint n = 0; n < pieces->len; n++) {
-        const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, n);
-        low = fmin(low, fmin(p->y0, p->y1) - fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0));
-      }
-    }
-  }
-  return low - away;
-}
-
 // Finds the axis of the bodies and returns the map that makes it the line y = 0.
 static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
   double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
@@ -332,7 +321,7 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
       memcpy(through, (double[]){line->x0, line->y0, 0}, sizeof through);
     }
   }
-  through[1] = choices->section ? below(drawing) : through[1];
+  through[1] = choices->section ? drawing->low - AWAY : through[1];
   const double *at = choices->section || choices->through == NULL ? through : choices->through;
   const double *along = choices->section || choices->axis == NULL ? direction : choices->axis;
   // The point of the line that is nearest to the drawing's origin is x = 0.
@@ -423,6 +412,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .names = g_ptr_array_new_with_free_func(g_free),
       .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
+      .low = INFINITY,
       .unit = g_strdup(choices->unit),
   };
   GError *problem = NULL;

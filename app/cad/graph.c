@@ -199,14 +199,8 @@ static void close_by_axis(Graph *graph) {
   }
 }
 
-// An end, and the direction in which its edge leaves it.
-typedef struct {
-  double angle;
-  guint end;
-} Leaving;
-
-static gint compare_leaving(gconstpointer a, gconstpointer b) {
-  const double x = ((const Leaving *)a)->angle, y = ((const Leaving *)b)->angle;
+static gint compare_angles(gconstpointer a, gconstpointer b, gpointer angles) {
+  const double *angle = angles, x = angle[*(const guint *)a], y = angle[*(const guint *)b];
   return (x > y) - (x < y);
 }
 
@@ -214,26 +208,27 @@ static gint compare_leaving(gconstpointer a, gconstpointer b) {
 // edges differ. The boundary of a face, on its right, then goes on from the edge left from `end`
 // with that left from next[end ^ 1].
 static void turn_ends(const Graph *graph) {
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(Leaving));
-  for (guint end = 0; end < 2 * graph->edges->len; end++) {
+  const guint count = 2 * graph->edges->len;
+  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(guint));
+  g_autofree double *angle = g_new0(double, count + 1);
+  for (guint end = 0; end < count; end++) {
     double near = INFINITY;
     g_array_set_size(all, 0);
     for (guint k = end; graph->node[end] == end && (k != end || all->len == 0);
          k = graph->next[k]) {
-      g_array_append_val(all, ((Leaving){0, k}));
+      g_array_append_val(all, k);
       near = fmin(near, g_array_index(graph->edges, Drawn, k / 2).reach);
     }
     for (guint i = 0; i < all->len; i++) {
-      Leaving *one = &g_array_index(all, Leaving, i);
-      const SbCadPiece piece = piece_from(graph, one->end);
+      const guint own = g_array_index(all, guint, i);
+      const SbCadPiece piece = piece_from(graph, own);
       double at[2];
       sb_cad_point(&piece, near / sb_cad_length(&piece), at);
-      one->angle = atan2(at[1] - piece.y0, at[0] - piece.x0);
+      angle[own] = atan2(at[1] - piece.y0, at[0] - piece.x0);
     }
-    g_array_sort(all, compare_leaving);
+    g_array_sort_with_data(all, compare_angles, angle);
     for (guint i = 0; i < all->len; i++) {
-      graph->next[g_array_index(all, Leaving, i).end] =
-          g_array_index(all, Leaving, (i + 1) % all->len).end;
+      graph->next[g_array_index(all, guint, i)] = g_array_index(all, guint, (i + 1) % all->len);
     }
   }
 }
@@ -291,29 +286,31 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
   turn_ends(&graph);
   g_array_set_size(outer, 1);
   for (guint begin = 0; begin < 2 * edges->len; begin++) {
+    const guint own = outer->len;
     double area = 0;
     for (guint end = begin; face[end] == 0; end = next[end ^ 1U]) {
       const SbCadPiece piece = piece_from(&graph, end);
-      face[end] = outer->len;
+      face[end] = own;
       area += area_of(&piece, piece_from(&graph, begin).x0);
+    }
+    if (face[begin] != own) {
+      continue;
     }
     // The outer face is on the right of its counter-clockwise boundary, which may pass a point
     // twice.
     const bool is_outer = area > 0;
-    const guint own = outer->len;
-    if (face[begin] == own) {
-      g_array_append_val(outer, is_outer);
-    }
-    for (guint end = begin, i = 0; face[begin] == own && is_outer && (i == 0 || end != begin);
-         end = next[end ^ 1U], i++) {
-      place[node[end]] = cycle->len + 1;
+    g_array_append_val(outer, is_outer);
+    guint end = begin;
+    for (bool more = is_outer; more; more = end != begin) {
       g_array_append_val(cycle, end);
+      place[node[end]] = cycle->len;
       const guint at = place[node[end ^ 1U]];
+      end = next[end ^ 1U];
       if (at > 0) {
         const guint *ends = &g_array_index(cycle, guint, at - 1);
         add_outline(outlines, &graph, ends, cycle->len - at + 1, gap);
-        for (guint k = 0; k < cycle->len - at + 1; k++) {
-          place[node[ends[k]]] = 0;
+        for (guint k = at - 1; k < cycle->len; k++) {
+          place[node[g_array_index(cycle, guint, k)]] = 0;
         }
         g_array_set_size(cycle, at - 1);
       }

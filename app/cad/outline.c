@@ -122,7 +122,12 @@ static void simplify(GArray *chain, double within) {
 // Fills the body's profile from a chain, which it simplifies; `why` where that is none.
 static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
   g_autoptr(GArray) drawn = g_array_copy(chain);
-  simplify(chain, 0);
+  for (int pass = 0; pass < 1 + closed; pass++) { // again from another piece, whose end is a corner
+    const SbCadPiece first = g_array_index(chain, SbCadPiece, 0);
+    g_array_remove_index(chain, 0);
+    g_array_insert_val(chain, pass == 0 ? 0 : chain->len, first);
+    simplify(chain, 0);
+  }
   if (chain->len + 1 > SB_PROFILE_MAX) {
     g_array_set_size(chain, 0);
     g_array_append_vals(chain, drawn->data, drawn->len);
