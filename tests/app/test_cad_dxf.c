@@ -308,6 +308,7 @@ static void test_centre_line(void) {
                {"Mittellinie", "", ""},
                {"Achse", "", "CONTINUOUS"},
                {"AM_7", "", ""},
+               {"中心线", "", ""},
                {"axe", "", ""}};
   for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
     g_autoptr(GString) dxf = drawing_begin(4);
@@ -380,6 +381,7 @@ static void test_cavities(void) {
     const SbCadBody *body = cad->bodies->pdata[0];
     g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / M_PI, kind < 2 ? 12 : 16, 1e-9);
     if (kind < 2) {
+      g_assert_cmpuint(cad->warnings->len, ==, 1);
       g_assert_nonnull(strstr(cad->warnings->pdata[0], "is a cavity"));
       g_assert_cmpfloat_with_epsilon(1e3 * body->solid.centre[0], 3.1, 1e-9);
       g_assert_cmpfloat_with_epsilon(1e15 * body->solid.inertia[0][0] / M_PI, 63, 1e-7);
