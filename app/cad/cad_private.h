@@ -62,21 +62,23 @@ enum { SB_CAD_PIECES_MAX = 5000 };
 typedef struct {
   GArray *chain; // of SbCadPiece
   bool closed;   // else by the axis
-  guint part;    // as in Drawn
-  bool unsure;   // lines within it may be a bore
+  guint part;    // equal for outlines of lines that are connected
+  bool unsure;   // lines within it are edges of the part or bound a bore
 } SbCadOutline;
 
-// What is drawn above the axis, or below it.
+// What is drawn above the axis, or below it and mirrored. The caller provides the arrays.
 typedef struct {
   GPtrArray *outlines; // of SbCadOutline
   GArray *pieces;      // of SbCadPiece: all those of the outlines; set by the caller
   GArray *alone;       // of SbCadPiece: they begin at an end that meets no other
-  guint doubled, inner;
+  guint doubled;       // pieces drawn twice, of which one is ignored
+  guint inner;         // pieces within an outline, which are ignored
 } SbCadLines;
 
-// Appends the outlines of closed entities, above the axis and closed by it. Ends within `gap` are
-// one point, pieces within `same` are one [m]. Edges that two entities share bound neither the
-// material of both nor a recess, an outline within another one at its edge; they vanish.
+// Appends the outlines of the pieces (of SbCadPiece) of closed entities, above the axis and closed
+// by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
+// share bound neither the material of both nor a recess, an outline within another one at its edge;
+// they vanish.
 void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
 // Appends the outlines of other lines: the outer boundary of those that are connected. Lines within

@@ -300,16 +300,11 @@ static void test_left_out(void) {
 static void test_centre_line(void) {
   static const struct {
     const char *layer, *type, *layer_type;
-  } lines[] = {{"0", "CENTER2", ""},
-               {"0", "ACAD_ISO10W100", ""},
-               {"0", "STRICHPUNKT", ""},
-               {"thin", "BYLAYER", "CENTER"},
-               {"thin", "", "DASHDOT"},
-               {"Mittellinie", "", ""},
-               {"Achse", "", "CONTINUOUS"},
-               {"AM_7", "", ""},
-               {"中心线", "", ""},
-               {"axe", "", ""}};
+  } lines[] = {{"0", "CENTER2", ""},        {"0", "ACAD_ISO10W100", ""},
+               {"0", "STRICHPUNKT", ""},    {"thin", "BYLAYER", "CENTER"},
+               {"thin", "", "DASHDOT"},     {"Mittellinie", "", ""},
+               {"Achse", "", "CONTINUOUS"}, {"AM_7", "", ""},
+               {"中心线", "", ""},          {"axe", "", ""}};
   for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
     g_autoptr(GString) dxf = drawing_begin(4);
     const gsize at = (gsize)(strstr(dxf->str, "  0\r\nSECTION\r\n  2\r\nENTITIES") - dxf->str);
