@@ -122,7 +122,6 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
   for (guint i = 0; i < cad->bodies->len; i++) {
     settle_body(cad->bodies->pdata[i], choices);
   }
-  join_outline_cavities(cad);
   for (guint i = 0; i < cad->bodies->len; i++) {
     SbCadBody *body = cad->bodies->pdata[i];
     double(*const moment)[3] = body->solid.inertia;
@@ -136,6 +135,7 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
                   body->name, 100 * uneven, 100 * fabs(more), more < 0 ? "less" : "more");
     }
   }
+  join_outline_cavities(cad);
 }
 
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {

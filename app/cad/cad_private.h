@@ -43,19 +43,57 @@ SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double
 // Returns the arc of a piece with a bulge.
 SbArc sb_cad_circle(const SbCadPiece *piece);
 
+// Returns the length of a piece.
+double sb_cad_length(const SbCadPiece *piece);
+
+// Writes the point of a piece at a fraction of its length.
+void sb_cad_point(const SbCadPiece *piece, double part, double at[2]);
+
 // Returns the position along a piece of the point on its line or circle that is nearest to (x, y):
 // 0 at its start, 1 at its end. On a circle, of the positions that differ by full turns, the one
 // nearest to 0.5: slightly before the start it is slightly negative. Writes the distance of (x, y)
 // from the line or circle [m], never negative, to *off.
 double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 
-// Joins `pieces` (of SbCadPiece) in any order and direction to outlines; ends within `gap` [m] are
-// one point, and pieces on the line y = 0, of no length or drawn twice are ignored. Each closed
-// chain, and each open one that ends on that line, becomes a body about the line y = 0 with x as
-// drawn and r = |y|: the part at y >= 0, or below if nothing is above; outlines without area do
-// not. Appends the bodies to cad->bodies, with the name `name`, and warnings for pieces that were
-// drawn twice or close to no outline. The caller then calls sb_cad_settle().
-void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap);
+// Comparing each end with each: a layer of more pieces is no seal's part.
+enum { SB_CAD_PIECES_MAX = 5000 };
+
+// An outline, as a chain of pieces.
+typedef struct {
+  GArray *chain; // of SbCadPiece
+  bool closed;   // else by the axis
+  guint part;    // equal for outlines of lines that are connected
+  bool unsure;   // lines within it are edges of the part or bound a bore
+} SbCadOutline;
+
+// What is drawn above the axis, or below it and mirrored. The caller provides the arrays.
+typedef struct {
+  GPtrArray *outlines; // of SbCadOutline
+  GArray *pieces;      // of SbCadPiece: all those of the outlines; set by the caller
+  GArray *alone;       // of SbCadPiece: they begin at an end that meets no other
+  guint doubled;       // pieces drawn twice, of which one is ignored
+  guint inner;         // pieces within an outline, which are ignored
+} SbCadLines;
+
+// Appends the outlines of the pieces (of SbCadPiece) of closed entities, above the axis and closed
+// by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
+// share bound neither the material of both nor a recess, an outline within another one at its edge;
+// they vanish.
+void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, double same);
+
+// Appends the outlines of other lines: the outer boundary of those that are connected. Lines within
+// it are edges of shoulders if they are drawn twice, across the axis, or from the middle of a line
+// to that of another; else the outline is unsure.
+void sb_cad_add_open(SbCadLines *lines, const GArray *pieces, double gap, double same);
+
+// Finds the outlines in `entities` (of GArray of SbCadPiece) about the line y = 0, with x as drawn
+// and r = |y|: those above it, or below if there are none above. Ends within `gap` [m] are one
+// point; the line y = 0 closes what ends on it. Entities that close by themselves are outlines;
+// edges that two of them share vanish. Of other pieces, in any order, an outline is the outer
+// boundary of those that are connected. Appends them as bodies, with the name `name`, to
+// cad->bodies, and warnings on what was ignored and on halves that differ. The caller then calls
+// sb_cad_settle().
+void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap);
 
 // Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the
 // axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines() (10 nm): the

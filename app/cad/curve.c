@@ -28,6 +28,21 @@ SbArc sb_cad_circle(const SbCadPiece *piece) {
   return sb_arc_of(from, to, piece->bulge);
 }
 
+double sb_cad_length(const SbCadPiece *piece) {
+  const double chord = hypot(piece->x1 - piece->x0, piece->y1 - piece->y0);
+  const double half = 2 * atan(fabs(piece->bulge));
+  return half > 0 ? chord * half / sin(half) : chord;
+}
+
+void sb_cad_point(const SbCadPiece *piece, double part, double at[2]) {
+  at[0] = piece->x0 + part * (piece->x1 - piece->x0);
+  at[1] = piece->y0 + part * (piece->y1 - piece->y0);
+  if (piece->bulge != 0) {
+    const SbArc arc = sb_cad_circle(piece);
+    sb_arc_place(&arc, part, at);
+  }
+}
+
 double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off) {
   const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, chord = hypot(dx, dy);
   if (piece->bulge == 0) {

@@ -25,13 +25,14 @@ enum {
 };
 
 // Ends are one point within this, unless `join` is given; drawings round to a thousandth of their
-// unit at worst. Larger gaps that may be errors of drawing [m].
-static const double GAP = 1e-6, CLOSABLE = 0.2e-3;
+// unit at worst. Larger gaps that may be errors of drawing; distance of an axis below all [m].
+static const double GAP = 1e-6, CLOSABLE = 0.2e-3, AWAY = 1e-3;
 
 // A block, or model space.
 typedef struct {
   double base[2];
-  GArray *items; // of SbDxfItem
+  bool elsewhere; // an external reference
+  GArray *items;  // of SbDxfItem
 } Block;
 
 typedef struct {
@@ -41,9 +42,10 @@ typedef struct {
   GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
   GHashTable *line_types; // the same -> its type of lines
   GPtrArray *names;       // of the layers with pieces, in order of appearance
-  GPtrArray *layers;      // of GArray of SbCadPiece [m], in the order of `names`
+  GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbCadPiece [m]
   GHashTable *left_out;   // type and reason -> count
   GArray *centre;         // of SbCadPiece [m]: centre lines
+  double low;             // all pieces are above this y [m]
   guint pieces, items, placed;
   char *unit;   // owned; NULL: not known
   double scale; // its length [m]
@@ -57,15 +59,22 @@ static gpointer find(GHashTable *table, const char *name) {
   return g_hash_table_lookup(table, key);
 }
 
-// Returns whether an entity on `layer` is a line whose type, or the layer's, or the layer's name
-// begins as those of centre lines do.
-static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer) {
+// Returns whether an entity on `layer` is a straight line, in one or more pieces, whose type, or
+// the layer's, or the layer's name begins as those of centre lines do.
+static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, const char *layer,
+                           const GArray *pieces) {
   static const char *const starts[] = {SB_DXF_CENTRE};
   const bool by_layer =
       *entity->line_type == '\0' || g_ascii_strcasecmp(entity->line_type, "bylayer") == 0;
   const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
-  bool centre = false;
-  for (size_t i = 0; sb_dxf_is(entity, "LINE") && i < G_N_ELEMENTS(starts); i++) {
+  bool centre = false, straight = pieces->len > 0;
+  for (guint i = 0; i < pieces->len; i++) {
+    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    double off;
+    (void)sb_cad_place(&g_array_index(pieces, SbCadPiece, 0), piece->x1, piece->y1, &off);
+    straight = straight && piece->bulge == 0 && off <= GAP;
+  }
+  for (size_t i = 0; straight && i < G_N_ELEMENTS(starts); i++) {
     const size_t length = strlen(starts[i]);
     centre = centre || g_ascii_strncasecmp(layer, starts[i], length) == 0 ||
              (type != NULL && g_ascii_strncasecmp(type, starts[i], length) == 0);
@@ -83,7 +92,7 @@ static void count_left_out(Drawing *drawing, const char *type, const char *reaso
   g_hash_table_insert(drawing->left_out, counted, GUINT_TO_POINTER(count + 1));
 }
 
-static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GArray *pieces,
+static bool add_pieces(Drawing *drawing, const char *name, bool centre, GArray *pieces,
                        GError **error) {
   guint layer = 0;
   while (layer < drawing->names->len &&
@@ -92,10 +101,19 @@ static bool add_pieces(Drawing *drawing, const char *name, bool centre, const GA
   }
   if (!centre && layer == drawing->names->len) {
     g_ptr_array_add(drawing->names, g_strdup(name));
-    g_ptr_array_add(drawing->layers, g_array_new(FALSE, FALSE, sizeof(SbCadPiece)));
+    g_ptr_array_add(drawing->layers, g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref));
   }
-  g_array_append_vals(centre ? drawing->centre : drawing->layers->pdata[layer], pieces->data,
-                      pieces->len);
+  if (centre) {
+    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
+  } else {
+    g_ptr_array_add(drawing->layers->pdata[layer], g_array_ref(pieces));
+  }
+  // No arc goes further from its chord than that is long times the bulge.
+  for (guint i = 0; !centre && i < pieces->len; i++) {
+    const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+    const double deep = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
+    drawing->low = fmin(drawing->low, fmin(p->y0, p->y1) - deep);
+  }
   drawing->pieces += pieces->len;
   return (drawing->pieces <= DXF_PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
          sb_app_error_input(error,
@@ -134,8 +152,9 @@ static bool place_insert(Drawing *drawing, const SbDxfEntity *entity, const SbDx
   const double sx = entity->list[SB_DXF_WEIGHT]->len > 0 ? n[41] : 1;
   const double sy = entity->list[SB_DXF_BULGE]->len > 0 ? n[42] : 1;
   const Block *block = find(drawing->blocks, entity->name);
-  if (block == NULL || sx == 0 || sy == 0) {
-    count_left_out(drawing, "INSERT", "");
+  const bool elsewhere = block != NULL && block->elsewhere && block->items->len == 0;
+  if (block == NULL || elsewhere || sx == 0 || sy == 0) {
+    count_left_out(drawing, "INSERT", elsewhere ? " of another file" : "");
     return true;
   }
   if (depth >= DXF_DEPTH_MAX) {
@@ -175,7 +194,7 @@ static bool place_entity(Drawing *drawing, const SbDxfEntity *entity, const SbDx
     count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
   }
-  return add_pieces(drawing, on, is_centre_line(drawing, entity, on), pieces, error);
+  return add_pieces(drawing, on, is_centre_line(drawing, entity, on, pieces), pieces, error);
 }
 
 // Places all entities of a block; `layer` of its INSERT.
@@ -228,6 +247,7 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
     } else {
       *open = g_new0(Block, 1);
       (*open)->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
+      (*open)->elsewhere = ((int)entity.number[70] & (4 | 8)) != 0; // also as an overlay
       (*open)->base[0] = entity.number[10];
       (*open)->base[1] = entity.number[20];
       g_hash_table_replace(drawing->blocks, key, *open);
@@ -286,21 +306,6 @@ static bool read_file(Drawing *drawing, GError **error) {
                              "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"));
 }
 
-// Returns a y that all pieces are above [m]. No arc goes further from its chord than that is long
-// times the bulge.
-static double below(const Drawing *drawing) {
-  const double away = 1e-3;
-  double low = INFINITY;
-  for (guint k = 0; k < drawing->layers->len; k++) {
-    const GArray *pieces = drawing->layers->pdata[k];
-    for (guint i = 0; i < pieces->len; i++) {
-      const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
-      low = fmin(low, fmin(p->y0, p->y1) - fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0));
-    }
-  }
-  return low - away;
-}
-
 // Finds the axis of the bodies and returns the map that makes it the line y = 0.
 static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
   double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
@@ -316,7 +321,7 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
       memcpy(through, (double[]){line->x0, line->y0, 0}, sizeof through);
     }
   }
-  through[1] = choices->section ? below(drawing) : through[1];
+  through[1] = choices->section ? drawing->low - AWAY : through[1];
   const double *at = choices->section || choices->through == NULL ? through : choices->through;
   const double *along = choices->section || choices->axis == NULL ? direction : choices->axis;
   // The point of the line that is nearest to the drawing's origin is x = 0.
@@ -349,13 +354,16 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
   const SbDxfMap axis = find_axis(cad, drawing, choices);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
-    GArray *pieces = drawing->layers->pdata[k];
-    for (guint i = 0; i < pieces->len; i++) {
-      SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-      *piece = sb_dxf_place(&axis, piece);
+    const GPtrArray *entities = drawing->layers->pdata[k];
+    for (guint i = 0; i < entities->len; i++) {
+      const GArray *pieces = entities->pdata[i];
+      for (guint n = 0; n < pieces->len; n++) {
+        SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, n);
+        *piece = sb_dxf_place(&axis, piece);
+      }
     }
     g_autofree char *shown = sb_printable(name, strlen(name));
-    sb_cad_outlines(cad, pieces, shown, choices->join > 0 ? choices->join : GAP);
+    sb_cad_outlines(cad, entities, shown, choices->join > 0 ? choices->join : GAP);
   }
   sb_cad_settle(cad, choices);
   left_out(cad, drawing);
@@ -402,8 +410,9 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .line_types = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free),
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
-      .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref),
+      .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref),
       .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
+      .low = INFINITY,
       .unit = g_strdup(choices->unit),
   };
   GError *problem = NULL;

@@ -6,181 +6,44 @@
 #include <math.h>
 #include <string.h>
 
-// Comparing each end with each: a layer of more pieces is no seal's part.
-enum { OUTLINE_PIECES_MAX = 5000, NEAR_MAX = 1000000 };
+// The largest distance between pieces that are drawn twice; of a circle from the pieces that follow
+// it, and of a line; ends that are one point where a body is cut; difference of halves that is
+// reported [m].
+static const double DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8,
+                    HALVES = 2e-6;
 
-// Pieces that are shorter are ignored; the largest distance between pieces that are drawn twice; of
-// a circle from the next one that continues it, and of a line from points on it; ends that are one
-// point where a body is cut [m].
-static const double TINY = 1e-9, DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8;
-
-static SbCadPiece reversed(SbCadPiece piece) {
-  return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
-}
-
-// Length of a piece.
-static double length_of(const SbCadPiece *piece) {
-  const double chord = hypot(piece->x1 - piece->x0, piece->y1 - piece->y0);
-  const double half = 2 * atan(fabs(piece->bulge));
-  return half > 0 ? chord * half / sin(half) : chord;
-}
-
-// Returns whether a chain ends where it begins and is longer than the gap between ends.
+// Returns whether the pieces follow one another from end to end, back to the first.
 static bool closes(const GArray *chain, double gap) {
-  const SbCadPiece *first = &g_array_index(chain, SbCadPiece, 0);
-  const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
   double length = 0;
-  for (guint i = 0; length <= 2 * gap && i < chain->len; i++) {
-    length += length_of(&g_array_index(chain, SbCadPiece, i));
+  bool good = true;
+  for (guint i = 0; good && i < chain->len; i++) {
+    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
+    const SbCadPiece *next = &g_array_index(chain, SbCadPiece, (i + 1) % chain->len);
+    good = hypot(next->x0 - piece->x1, next->y0 - piece->y1) <= gap;
+    length += sb_cad_length(piece);
   }
-  return length > 2 * gap && hypot(last->x1 - first->x0, last->y1 - first->y0) <= gap;
+  return good && length > 2 * gap;
 }
 
-// Appends the unused piece with the end that is nearest to the end of `chain`, turned to begin
-// there; false if none is within `gap`.
-static bool append_next(GArray *chain, const GArray *pieces, bool *used, double gap) {
-  const SbCadPiece last = g_array_index(chain, SbCadPiece, chain->len - 1);
-  guint best = pieces->len;
-  SbCadPiece next = last;
-  double nearest = gap * gap;
-  for (guint i = 0; i < pieces->len; i++) {
-    if (used[i]) {
-      continue;
+// Returns the largest distance of an end or a middle of the pieces `of` from the nearest one of
+// `from`.
+static double deviation(const GArray *of, const GArray *from) {
+  double largest = 0;
+  for (guint i = 0; i < 2 * of->len; i++) {
+    double at[2], nearest = INFINITY;
+    sb_cad_point(&g_array_index(of, SbCadPiece, i / 2), i % 2 / 2.0, at);
+    for (guint k = 0; nearest > largest && k < from->len; k++) {
+      const SbCadPiece *piece = &g_array_index(from, SbCadPiece, k);
+      double off;
+      const double place = sb_cad_place(piece, at[0], at[1], &off);
+      off = place >= 0 && place <= 1 ? off
+                                     : fmin(hypot(at[0] - piece->x0, at[1] - piece->y0),
+                                            hypot(at[0] - piece->x1, at[1] - piece->y1));
+      nearest = fmin(nearest, off);
     }
-    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    const double dx0 = piece->x0 - last.x1, dy0 = piece->y0 - last.y1;
-    const double dx1 = piece->x1 - last.x1, dy1 = piece->y1 - last.y1;
-    const double begin = dx0 * dx0 + dy0 * dy0, end = dx1 * dx1 + dy1 * dy1;
-    if (fmin(begin, end) <= nearest) {
-      nearest = fmin(begin, end);
-      best = i;
-      next = begin <= end ? *piece : reversed(*piece);
-    }
+    largest = fmax(largest, nearest);
   }
-  if (best < pieces->len) {
-    used[best] = true;
-    g_array_append_val(chain, next);
-  }
-  return best < pieces->len;
-}
-
-static void turn(GArray *chain) {
-  g_autoptr(GArray) old = g_array_copy(chain);
-  for (guint i = 0; i < old->len; i++) {
-    const SbCadPiece piece = g_array_index(old, SbCadPiece, old->len - 1 - i);
-    g_array_index(chain, SbCadPiece, i) = reversed(piece);
-  }
-}
-
-// The point of a piece at a fraction of its length.
-static void point_of(const SbCadPiece *piece, double part, double at[2]) {
-  at[0] = piece->x0 + part * (piece->x1 - piece->x0);
-  at[1] = piece->y0 + part * (piece->y1 - piece->y0);
-  if (piece->bulge != 0) {
-    const SbArc arc = sb_cad_circle(piece);
-    sb_arc_place(&arc, part, at);
-  }
-}
-
-// Returns the place of a point on the line or circle of a piece as a fraction of its length; not a
-// number if the point is farther than `same` from it.
-static double place_on(const SbCadPiece *piece, double x, double y, double same) {
-  double off;
-  const double place = sb_cad_place(piece, x, y, &off);
-  return off <= same ? place : NAN;
-}
-
-// A piece with the circle about its middle in which it is.
-typedef struct {
-  SbCadPiece piece;
-  double middle[2], reach;
-} Drawn;
-
-static Drawn drawn_of(const SbCadPiece piece) {
-  Drawn drawn = {.piece = piece, .reach = length_of(&piece) / 2};
-  point_of(&piece, 0.5, drawn.middle);
-  return drawn;
-}
-
-// Writes to `place` where the ends of `other` are on `piece`, if both are of one line or circle.
-static bool overlaps(const SbCadPiece *piece, const Drawn *other, double same, double place[2]) {
-  const SbCadPiece *ends = &other->piece;
-  place[0] = place_on(piece, ends->x0, ends->y0, same);
-  if (isnan(place[0]) || other->reach <= 2 * same) {
-    return false;
-  }
-  place[1] = place_on(piece, ends->x1, ends->y1, same);
-  return !isnan(place[1]) && !isnan(place_on(piece, other->middle[0], other->middle[1], same));
-}
-
-// Divides a piece of `all` (of Drawn) at an end of another that runs along it: the remainder is
-// appended. Returns whether there is one.
-static bool divide_outline(GArray *all, guint index, const Drawn *other, double same) {
-  const SbCadPiece whole = g_array_index(all, Drawn, index).piece;
-  const double length = 2 * g_array_index(all, Drawn, index).reach, quarter = atan(whole.bulge);
-  double place[2];
-  const bool along = overlaps(&whole, other, same, place);
-  for (int end = 0; along && end < 2; end++) {
-    const double part = place[end];
-    if (part * length > same && (1 - part) * length > same) {
-      const double x = end == 0 ? other->piece.x0 : other->piece.x1;
-      const double y = end == 0 ? other->piece.y0 : other->piece.y1;
-      const Drawn rest =
-          drawn_of((SbCadPiece){x, y, whole.x1, whole.y1, tan((1 - part) * quarter)});
-      g_array_index(all, Drawn, index) =
-          drawn_of((SbCadPiece){whole.x0, whole.y0, x, y, tan(part * quarter)});
-      g_array_append_val(all, rest);
-      return true;
-    }
-  }
-  return false;
-}
-
-// Returns whether two pieces are one, in any direction.
-static bool is_same(const Drawn *a, const Drawn *b, double same) {
-  const SbCadPiece *p = &a->piece, *q = &b->piece;
-  const double along =
-      fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
-  const double back =
-      fmax(hypot(p->x0 - q->x1, p->y0 - q->y1), hypot(p->x1 - q->x0, p->y1 - q->y0));
-  return hypot(a->middle[0] - b->middle[0], a->middle[1] - b->middle[1]) <= same &&
-         fmin(along, back) <= same;
-}
-
-// Returns the pieces without those of no length and those drawn twice, also in part, and counts the
-// latter. Of more than NEAR_MAX pairs of pieces that are close together, the first are compared.
-static GArray *tidied(const GArray *pieces, double same, guint *doubled) {
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(Drawn));
-  GArray *out = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  for (guint i = 0; i < pieces->len; i++) {
-    const Drawn drawn = drawn_of(g_array_index(pieces, SbCadPiece, i));
-    if (2 * drawn.reach > TINY) {
-      g_array_append_val(all, drawn);
-    }
-  }
-  guint near = 0;
-  for (guint i = 0; i < all->len; i++) {
-    bool single = true;
-    for (guint k = 0; single && near < NEAR_MAX && k < all->len; k++) {
-      const Drawn *piece = &g_array_index(all, Drawn, i), other = g_array_index(all, Drawn, k);
-      const double x = piece->middle[0] - other.middle[0], y = piece->middle[1] - other.middle[1];
-      const double reach = piece->reach + other.reach + same;
-      if (i == k || x * x + y * y > reach * reach) {
-        continue;
-      }
-      near++;
-      if (all->len < OUTLINE_PIECES_MAX && divide_outline(all, i, &other, same)) {
-        k--; // its other end
-      } else {
-        single = k > i || !is_same(piece, &other, same);
-      }
-    }
-    if (single) {
-      g_array_append_val(out, g_array_index(all, Drawn, i).piece);
-    }
-  }
-  *doubled = all->len - out->len;
-  return out;
+  return largest;
 }
 
 // Appends the parts of `piece` above the axis; ends on it have y = 0 exactly.
@@ -198,7 +61,8 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
     const SbArc arc = sb_cad_circle(&piece);
     const double half = up > 0 ? 0 : sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
     for (int side = -1; side <= 1 && half > 0; side += 2) {
-      const double part = place_on(&piece, arc.centre[0] + side * half, 0, INFINITY);
+      double off;
+      const double part = sb_cad_place(&piece, arc.centre[0] + side * half, 0, &off);
       if (part > 1e-9 && part < 1 - 1e-9) {
         at[cuts++] = part;
       }
@@ -212,7 +76,7 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   for (int i = 1; i <= cuts; i++) {
     double to[2] = {piece.x1, piece.y1}, high = 0, place[2];
     for (int k = 1; k <= 4; k++) { // its middle may touch the axis
-      point_of(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
+      sb_cad_point(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
       high = k < 4 ? fmax(high, place[1]) : high;
     }
     if (i < cuts) {
@@ -228,51 +92,27 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   }
 }
 
-// Joins the piece `next` to the arc `last` if both are of one circle.
-static bool join_arcs(SbCadPiece *last, const SbCadPiece *next) {
-  const SbArc a = sb_cad_circle(last), b = sb_cad_circle(next);
-  // Through the three ends, which are better known than either piece's curvature.
-  const SbCadPiece both =
-      sb_cad_arc((const double[2]){last->x0, last->y0}, (const double[2]){next->x0, next->y0},
-                 (const double[2]){next->x1, next->y1});
-  if (hypot(a.centre[0] - b.centre[0], a.centre[1] - b.centre[1]) > CONTINUED ||
-      fabs(a.radius - b.radius) > CONTINUED || !(fabs(both.bulge) < 1) ||
-      both.bulge * last->bulge < 0) {
-    return false;
-  }
-  *last = both;
-  return true;
-}
-
-// Returns whether the straight pieces from `first` to `last` of a chain follow one line forwards
-// within STRAIGHT.
-static bool is_straight(const GArray *chain, guint first, guint last) {
-  const SbCadPiece *from = &g_array_index(chain, SbCadPiece, first);
-  const SbCadPiece *to = &g_array_index(chain, SbCadPiece, last);
-  const SbCadPiece line = {from->x0, from->y0, to->x1, to->y1, 0};
-  double before = 0;
-  bool good = line.x0 != line.x1 || line.y0 != line.y1;
-  for (guint i = first + 1; good && i <= last; i++) {
-    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
-    const double at = place_on(&line, piece->x0, piece->y0, STRAIGHT);
-    good = at > before && at < 1;
-    before = at;
-  }
-  return good;
-}
-
-// Joins pieces of one line or one circle, in place.
-static void simplify(GArray *chain) {
+// Joins runs of pieces of one line or one circle, in place; if `within` is above 0, of any that are
+// as close to an arc [m].
+static void simplify(GArray *chain, double within) {
   g_autoptr(GArray) all = g_array_copy(chain);
   guint kept = 0, first = 0; // first: of the pieces of `all` that the last one kept consists of
   for (guint i = 1; i < all->len; i++) {
-    const SbCadPiece *next = &g_array_index(all, SbCadPiece, i);
-    SbCadPiece *last = &g_array_index(chain, SbCadPiece, kept);
-    if (last->bulge == 0 && next->bulge == 0 && is_straight(all, first, i)) {
-      last->x1 = next->x1;
-      last->y1 = next->y1;
-    } else if (!(last->bulge * next->bulge > 0 && join_arcs(last, next))) {
-      g_array_index(chain, SbCadPiece, ++kept) = *next;
+    const SbCadPiece *piece = &g_array_index(all, SbCadPiece, 0);
+    const SbCadPiece *from = &piece[first], *to = &piece[i];
+    const double begin[2] = {from->x0, from->y0}, end[2] = {to->x1, to->y1};
+    double middle[2];
+    sb_cad_point(&piece[(first + i + 1) / 2], 0, middle);
+    const bool line = within == 0 && from->bulge == 0 && to->bulge == 0;
+    SbCadPiece one = sb_cad_arc(begin, middle, end);
+    one.bulge = line ? 0 : one.bulge;
+    const double least = within > 0 ? within : line ? STRAIGHT : CONTINUED;
+    if ((line || within > 0 || from->bulge * to->bulge > 0) && fabs(one.bulge) < 1 &&
+        (one.x0 != one.x1 || one.y0 != one.y1) &&
+        deviation(&(GArray){(gchar *)from, i + 1 - first}, &(GArray){(gchar *)&one, 1}) <= least) {
+      g_array_index(chain, SbCadPiece, kept) = one;
+    } else {
+      g_array_index(chain, SbCadPiece, ++kept) = *to;
       first = i;
     }
   }
@@ -281,7 +121,18 @@ static void simplify(GArray *chain) {
 
 // Fills the body's profile from a chain, which it simplifies; `why` where that is none.
 static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
-  simplify(chain);
+  g_autoptr(GArray) drawn = g_array_copy(chain);
+  for (int pass = 0; pass < 1 + closed; pass++) { // again from another piece, whose end is a corner
+    const SbCadPiece first = g_array_index(chain, SbCadPiece, 0);
+    g_array_remove_index(chain, 0);
+    g_array_insert_val(chain, pass == 0 ? 0 : chain->len, first);
+    simplify(chain, 0);
+  }
+  if (chain->len + 1 > SB_PROFILE_MAX) {
+    g_array_set_size(chain, 0);
+    g_array_append_vals(chain, drawn->data, drawn->len);
+    simplify(chain, SB_CAD_TOLERANCE);
+  }
   if (chain->len + 1 > SB_PROFILE_MAX) {
     body->why = g_strdup_printf("its half-section has %u pieces, more than %d", chain->len,
                                 SB_PROFILE_MAX - 1);
@@ -300,56 +151,22 @@ static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
   body->closed = closed;
 }
 
-// A closed outline, or one that begins and ends on the axis, as a half-section.
-static void half_section(SbCadBody *body, const GArray *chain, double gap) {
-  g_autoptr(GArray) above = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  for (guint i = 0; i < chain->len; i++) {
-    clip(above, g_array_index(chain, SbCadPiece, i), gap);
-  }
-  // Begin behind what lies on the axis or below it.
-  guint breaks = 0, begin = 0;
-  for (guint i = 0; i < above->len; i++) {
-    const SbCadPiece *one = &g_array_index(above, SbCadPiece, i);
-    const SbCadPiece *before = &g_array_index(above, SbCadPiece, (i + above->len - 1) % above->len);
-    if (hypot(one->x0 - before->x1, one->y0 - before->y1) > gap) {
-      breaks++;
-      begin = i;
-    }
-  }
-  if (breaks > 1 || above->len == 0) {
-    body->why = above->len > 0 ? g_strdup("it crosses the axis more than twice") : NULL;
-    return;
-  }
-  g_autoptr(GArray) turned = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  for (guint i = 0; i < above->len; i++) {
-    g_array_append_val(turned, g_array_index(above, SbCadPiece, (begin + i) % above->len));
-  }
-  to_profile(body, turned, breaks == 0 && closes(chain, gap));
+static void outline_free(gpointer data) {
+  g_array_unref(((SbCadOutline *)data)->chain);
+  g_free(data);
 }
 
-// Largest y of a chain.
-static double top_of(const GArray *chain) {
-  double high = -INFINITY;
-  for (guint i = 0; i < chain->len; i++) {
-    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
-    double middle[2]; // of the arc, which is enough to find the side
-    point_of(piece, 0.5, middle);
-    high = fmax(high, fmax(fmax(piece->y0, piece->y1), middle[1]));
-  }
-  return high;
-}
+// ---- Bodies ----
 
-// Warns about open chains, whose ends are pairs of points in `ends`: the largest distance from an
-// end to the axis or the nearest other one is what `join` would have to bridge.
+// Warns about the ends of open chains: the largest distance from an end to the axis or the nearest
+// other one is what `join` would have to bridge.
 static void note_open(SbCad *cad, const char *name, const GArray *ends) {
-  typedef double Point[2];
-  const Point *at = (const Point *)(void *)ends->data;
-  const guint count = ends->len;
+  const SbCadPiece *at = (const SbCadPiece *)(void *)ends->data;
   double largest = 0; // squared
-  for (guint i = 0; i < count; i++) {
-    double nearest = at[i][1] * at[i][1];
-    for (guint k = 0; k < count; k++) {
-      const double dx = at[i][0] - at[k][0], dy = at[i][1] - at[k][1], off = dx * dx + dy * dy;
+  for (guint i = 0; i < ends->len; i++) {
+    double nearest = at[i].y0 * at[i].y0;
+    for (guint k = 0; k < ends->len; k++) {
+      const double dx = at[i].x0 - at[k].x0, dy = at[i].y0 - at[k].y0, off = dx * dx + dy * dy;
       nearest = k != i && off < nearest ? off : nearest;
     }
     largest = fmax(largest, nearest);
@@ -357,98 +174,132 @@ static void note_open(SbCad *cad, const char *name, const GArray *ends) {
   char gap[SB_NUMBER_SIZE];
   cad->apart = fmax(cad->apart, sqrt(largest));
   sb_note_add(cad->warnings, "%s: %u line%s to no outline: ends are up to %s mm apart", name,
-              count / 2, count > 2 ? "s that close" : " that closes",
+              (ends->len + 1) / 2, ends->len > 2 ? "s that close" : " that closes",
               sb_number_round(gap, 1e3 * sqrt(largest), 3));
 }
 
-// Finds the closed outlines, and the open ones that end on the axis, as chains of SbCadPiece.
-static GPtrArray *find_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
-  g_autofree bool *used = g_new0(bool, pieces->len + 1);
-  GPtrArray *outlines = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
-  g_autoptr(GArray) ends = g_array_new(FALSE, FALSE, 2 * sizeof(double));
-  for (guint i = 0; i < pieces->len; i++) {
-    // Pieces on the axis close what ends there; a centre line is no part of an outline.
-    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
-    used[i] = piece->bulge == 0 && fabs(piece->y0) <= gap && fabs(piece->y1) <= gap;
+// Returns whether an outline is one of `others` (of GArray of SbCadPiece).
+static bool is_known(const GPtrArray *others, const GArray *chain, double same) {
+  bool known = false;
+  for (guint i = 0; !known && i < others->len; i++) {
+    const GArray *other = others->pdata[i];
+    known = deviation(chain, other) <= same && deviation(other, chain) <= same;
   }
-  for (guint i = 0; i < pieces->len; i++) {
-    if (used[i]) {
+  return known;
+}
+
+// Finds the outlines of the entities (of GArray of SbCadPiece) above the axis, or below it and
+// mirrored (`side` -1).
+static void read_half(SbCadLines *half, const GPtrArray *entities, int side, double gap) {
+  const double same = fmin(gap, DOUBLED);
+  g_autoptr(GArray) closed = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) open = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GPtrArray) known = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
+  half->outlines = g_ptr_array_new_with_free_func(outline_free);
+  half->pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  half->alone = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  for (guint i = 0; i < entities->len; i++) {
+    const GArray *entity = entities->pdata[i];
+    g_autoptr(GArray) above = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+    for (guint k = 0; k < entity->len; k++) {
+      const SbCadPiece p = g_array_index(entity, SbCadPiece, k);
+      clip(above, (SbCadPiece){p.x0, side * p.y0, p.x1, side * p.y1, side * p.bulge}, gap);
+    }
+    const bool own = closes(entity, gap);
+    if (own && above->len > 0 && is_known(known, above, same)) {
+      half->doubled += above->len;
       continue;
     }
-    used[i] = true;
-    g_autoptr(GArray) chain = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-    g_array_append_val(chain, g_array_index(pieces, SbCadPiece, i));
-    for (int way = 0; way < 2 && !closes(chain, gap); way++) {
-      if (way == 1) {
-        turn(chain);
-      }
-      while (!closes(chain, gap) && append_next(chain, pieces, used, gap)) {
-      }
-    }
-    const SbCadPiece *first = &g_array_index(chain, SbCadPiece, 0);
-    const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
-    if (closes(chain, gap) || (fabs(first->y0) <= gap && fabs(last->y1) <= gap)) {
-      g_ptr_array_add(outlines, g_steal_pointer(&chain));
-    } else {
-      const double pair[2][2] = {{first->x0, first->y0}, {last->x1, last->y1}};
-      g_array_append_vals(ends, pair, 2);
+    g_array_append_vals(own ? closed : open, above->data, above->len);
+    if (own) {
+      g_ptr_array_add(known, g_steal_pointer(&above));
     }
   }
-  if (ends->len > 0) {
-    note_open(cad, name, ends);
+  sb_cad_add_closed(half, closed, gap, same);
+  g_ptr_array_set_size(known, 0);
+  for (guint i = 0; i < half->outlines->len; i++) {
+    g_ptr_array_add(known, g_array_ref(((SbCadOutline *)half->outlines->pdata[i])->chain));
   }
-  return outlines;
+  sb_cad_add_open(half, open, gap, same);
+  for (guint i = half->outlines->len; i-- > known->len;) {
+    const GArray *chain = ((SbCadOutline *)half->outlines->pdata[i])->chain;
+    if (is_known(known, chain, same)) {
+      half->doubled += chain->len;
+      g_ptr_array_remove_index(half->outlines, i);
+    }
+  }
+  for (guint i = 0; i < half->outlines->len; i++) {
+    const GArray *chain = ((SbCadOutline *)half->outlines->pdata[i])->chain;
+    g_array_append_vals(half->pieces, chain->data, chain->len);
+  }
 }
 
-// Returns whether a profile has no area: it is as thin as ends that are one point are far apart.
-static bool is_degenerate(const GArray *profile, double gap) {
-  const SbProfile points = {(void *)profile->data, profile->len, true};
-  double length = 0;
-  for (guint i = 1; i < profile->len; i++) {
-    const SbProfilePoint *p = &g_array_index(profile, SbProfilePoint, i - 1), *q = p + 1;
-    length += hypot(q->x - p->x, q->r - p->r);
-  }
-  return profile->len < 2 || fabs(sb_profile_area(&points)) <= gap * length;
+static void half_clear(SbCadLines *half) {
+  g_ptr_array_unref(half->outlines);
+  g_array_unref(half->pieces);
+  g_array_unref(half->alone);
 }
 
-void sb_cad_outlines(SbCad *cad, const GArray *pieces, const char *name, double gap) {
-  if (pieces->len > OUTLINE_PIECES_MAX) {
-    sb_note_add(cad->warnings, "%s: %u pieces, more than %d: left out", name, pieces->len,
-                OUTLINE_PIECES_MAX);
+// Adds warnings on what was ignored in the half that is used, and on the other one.
+static void note_half(SbCad *cad, const char *name, const SbCadLines *half, const SbCadLines *other,
+                      double gap) {
+  char number[SB_NUMBER_SIZE];
+  if (half->alone->len > 0) {
+    note_open(cad, name, half->alone);
+  }
+  if (half->doubled > 0) {
+    sb_note_add(cad->warnings, "%s: %u piece%s drawn twice: left out", name, half->doubled,
+                half->doubled > 1 ? "s" : "");
+  }
+  if (half->inner > 0) {
+    sb_note_add(cad->warnings, "%s: %u line%s within the outline, read as no bore or cavity", name,
+                half->inner, half->inner > 1 ? "s" : "");
+  }
+  const double apart =
+      half->pieces->len > 0 && other->pieces->len > 0
+          ? fmax(deviation(half->pieces, other->pieces), deviation(other->pieces, half->pieces))
+          : 0;
+  if (apart > fmax(2 * gap, HALVES)) {
+    sb_note_add(cad->warnings,
+                "%s: the halves above and below the axis differ by up to %s mm: that above is used",
+                name, sb_number_round(number, 1e3 * apart, 3));
+  }
+}
+
+void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap) {
+  guint pieces = 0, made = 0;
+  for (guint i = 0; i < entities->len; i++) {
+    pieces += ((const GArray *)entities->pdata[i])->len;
+  }
+  if (pieces > SB_CAD_PIECES_MAX) {
+    sb_note_add(cad->warnings, "%s: %u pieces, more than %d: left out", name, pieces,
+                SB_CAD_PIECES_MAX);
     return;
   }
-  guint doubled = 0, made = 0;
   const guint first = cad->bodies->len;
-  g_autoptr(GArray) single = tidied(pieces, fmin(gap, DOUBLED), &doubled);
-  g_autoptr(GPtrArray) outlines = find_outlines(cad, single, name, gap);
-  if (doubled > 0) {
-    sb_note_add(cad->warnings, "%s: %u piece%s drawn twice: left out", name, doubled,
-                doubled > 1 ? "s" : "");
-  }
-  bool above = false;
-  for (guint i = 0; i < outlines->len; i++) {
-    above = above || top_of(outlines->pdata[i]) > gap;
-  }
-  for (guint i = 0; i < outlines->len; i++) {
-    GArray *chain = outlines->pdata[i];
-    if ((above && top_of(chain) <= gap) || cad->bodies->len >= SB_CAD_BODIES_MAX) {
-      continue; // the other half of a whole section
-    }
-    for (guint k = 0; !above && k < chain->len; k++) {
-      SbCadPiece *piece = &g_array_index(chain, SbCadPiece, k);
-      *piece = (SbCadPiece){piece->x0, -piece->y0, piece->x1, -piece->y1, -piece->bulge};
-    }
+  SbCadLines half[2] = {0};
+  read_half(&half[0], entities, 1, gap);
+  read_half(&half[1], entities, -1, gap);
+  const int used =
+      half[0].outlines->len == 0 && (half[1].outlines->len > 0 || half[0].alone->len == 0);
+  note_half(cad, name, &half[used], &half[1 - used], gap);
+  for (guint i = 0; i < half[used].outlines->len && cad->bodies->len < SB_CAD_BODIES_MAX; i++) {
+    const SbCadOutline *outline = half[used].outlines->pdata[i];
     g_autofree char *own = made > 0 ? g_strdup_printf("%s %u", name, made + 1) : g_strdup(name);
     SbCadBody *body = sb_cad_body_new(own);
     body->layer = first;
-    half_section(body, chain, gap);
-    if (body->why == NULL && is_degenerate(body->profile, gap)) {
-      sb_cad_body_free(body);
-      continue;
+    if (outline->unsure) {
+      body->why =
+          g_strdup("lines within its outline are edges or a bore: draw the outline, or that "
+                   "of the bore as well, as a closed polyline");
+    } else {
+      to_profile(body, outline->chain, outline->closed);
     }
     made++;
     g_ptr_array_add(cad->bodies, body);
   }
+  half_clear(&half[0]);
+  half_clear(&half[1]);
 }
 
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
@@ -456,7 +307,8 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
   const SbCadChoices none = {0};
   const SbCadBody *best = NULL;
   guint count = 0;
-  sb_cad_outlines(found, pieces, body->name, CUT_GAP);
+  const gpointer all[] = {(gpointer)pieces};
+  sb_cad_outlines(found, &(GPtrArray){(gpointer *)all, 1}, body->name, CUT_GAP);
   sb_cad_settle(found, &none);
   for (guint i = 0; i < found->bodies->len; i++) {
     const SbCadBody *one = found->bodies->pdata[i];

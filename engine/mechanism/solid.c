@@ -206,14 +206,16 @@ static bool is_inside(const SbProfile *p, double x, double r) {
 
 bool sb_profile_encloses(const SbProfile *outer, const SbProfile *inner) {
   enum { LOOKED = 16 };
+  const double step = 1e-3; // along the piece, and of that to the left
   size_t n = 2 * pieces_of(inner);
   bool inside = true;
   for (size_t i = 0; i < n && inside; i += 1 + n / LOOKED) {
     Piece s;
-    double x, r;
+    double x, r, next_x, next_r, part = i % 2 == 0 ? 0.25 : 0.5;
     piece_at(&s, inner, i / 2, 0.0);
-    point_on(&s, i % 2 == 0 ? 0.0 : 0.5, &x, &r);
-    inside = r == 0.0 || is_inside(outer, x, r);
+    point_on(&s, part, &x, &r);
+    point_on(&s, part + step, &next_x, &next_r);
+    inside = is_inside(outer, x - step * (next_r - r), r + step * (next_x - x));
   }
   return inside;
 }

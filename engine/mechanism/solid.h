@@ -41,8 +41,8 @@ typedef struct {
 // then the area is negative.
 double sb_profile_area(const SbProfile *profile);
 
-// Returns whether an outline is inside of another one: about 16 points of `inner` off the axis
-// are. Both satisfy sb_profile_check().
+// Returns whether an outline is inside of another one, which it may touch: about 16 points of its
+// area, near its pieces, are. Both satisfy sb_profile_check().
 bool sb_profile_encloses(const SbProfile *outer, const SbProfile *inner);
 
 // Checks an outline. SB_ERROR_INPUT: it does not bound a body (open, crosses itself, clockwise,

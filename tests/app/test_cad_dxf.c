@@ -59,14 +59,19 @@ static void test_blocks(void) {
   drawing_put(dxf, 0, "MTEXT");
   drawing_put(dxf, 8, "0");
   drawing_put(dxf, 0, "ENDBLK");
+  begin_block(dxf, "XREF", 0, 0);
+  drawing_put(dxf, 70, "4");
+  drawing_put(dxf, 1, "part.dwg");
+  drawing_put(dxf, 0, "ENDBLK");
   begin_entities(dxf);
   // OUTER's point (3, 4) comes to the origin, its 30 degrees to none.
   const double c = cos(G_PI / 6), s = sin(G_PI / 6);
   put_insert(dxf, "OUTER", -(3 * c + 4 * s), -(4 * c - 3 * s), 1, 1, -30);
   put_insert(dxf, "NOWHERE", 0, 0, 1, 1, 0);
+  put_insert(dxf, "XREF", 0, 0, 1, 1, 0);
   drawing_end(dxf);
   g_autoptr(SbCad) cad = drawing_parse(dxf, &none);
-  drawing_check_stem_alone(cad, "left out: 1 INSERT, 1 MTEXT");
+  drawing_check_stem_alone(cad, "left out: 1 INSERT, 1 INSERT of another file, 1 MTEXT");
 }
 
 // A circle that is stretched to an ellipse is revolved to a torus of its area; a row of them.
@@ -295,15 +300,11 @@ static void test_left_out(void) {
 static void test_centre_line(void) {
   static const struct {
     const char *layer, *type, *layer_type;
-  } lines[] = {{"0", "CENTER2", ""},
-               {"0", "ACAD_ISO10W100", ""},
-               {"0", "STRICHPUNKT", ""},
-               {"thin", "BYLAYER", "CENTER"},
-               {"thin", "", "DASHDOT"},
-               {"Mittellinie", "", ""},
-               {"Achse", "", "CONTINUOUS"},
-               {"AM_7", "", ""},
-               {"axe", "", ""}};
+  } lines[] = {{"0", "CENTER2", ""},        {"0", "ACAD_ISO10W100", ""},
+               {"0", "STRICHPUNKT", ""},    {"thin", "BYLAYER", "CENTER"},
+               {"thin", "", "DASHDOT"},     {"Mittellinie", "", ""},
+               {"Achse", "", "CONTINUOUS"}, {"AM_7", "", ""},
+               {"中心线", "", ""},          {"axe", "", ""}};
   for (size_t i = 0; i < G_N_ELEMENTS(lines); i++) {
     g_autoptr(GString) dxf = drawing_begin(4);
     const gsize at = (gsize)(strstr(dxf->str, "  0\r\nSECTION\r\n  2\r\nENTITIES") - dxf->str);
@@ -316,8 +317,26 @@ static void test_centre_line(void) {
     drawing_put(tables, 0, "ENDSEC");
     g_string_insert(dxf, (gssize)at, tables->str);
     put_square(dxf, "part", 0);
-    drawing_line(dxf, lines[i].layer, -5, -1, 15, -1);
-    drawing_put(dxf, 6, "%s", lines[i].type);
+    if (i % 3 == 0) {
+      drawing_line(dxf, lines[i].layer, -5, -1, 15, -1);
+      drawing_put(dxf, 6, "%s", lines[i].type);
+    } else { // in two pieces, as POLYLINE or LWPOLYLINE
+      drawing_put(dxf, 0, i % 3 == 1 ? "POLYLINE" : "LWPOLYLINE");
+      drawing_put(dxf, 8, "%s", lines[i].layer);
+      drawing_put(dxf, 6, "%s", lines[i].type);
+      drawing_put(dxf, 70, "0");
+      for (int k = 0; k < 3; k++) {
+        if (i % 3 == 1) {
+          drawing_put(dxf, 0, "VERTEX");
+          drawing_put(dxf, 8, "%s", lines[i].layer);
+        }
+        drawing_put(dxf, 10, "%d", 10 * k - 5);
+        drawing_put(dxf, 20, "-1");
+      }
+      if (i % 3 == 1) {
+        drawing_put(dxf, 0, "SEQEND");
+      }
+    }
     drawing_end(dxf);
     g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
     g_assert_cmpuint(cad->bodies->len, ==, 1);
@@ -357,12 +376,130 @@ static void test_cavities(void) {
     const SbCadBody *body = cad->bodies->pdata[0];
     g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / M_PI, kind < 2 ? 12 : 16, 1e-9);
     if (kind < 2) {
+      g_assert_cmpuint(cad->warnings->len, ==, 1);
       g_assert_nonnull(strstr(cad->warnings->pdata[0], "is a cavity"));
       g_assert_cmpfloat_with_epsilon(1e3 * body->solid.centre[0], 3.1, 1e-9);
       g_assert_cmpfloat_with_epsilon(1e15 * body->solid.inertia[0][0] / M_PI, 63, 1e-7);
       g_assert_cmpfloat_with_epsilon(1e15 * body->solid.inertia[1][1] / M_PI, 36.02, 1e-7);
     }
   }
+}
+
+// A rectangle as a closed light polyline.
+static void put_closed(GString *dxf, const double at[4]) {
+  drawing_put(dxf, 0, "LWPOLYLINE");
+  drawing_put(dxf, 8, "part");
+  drawing_put(dxf, 70, "1");
+  for (int i = 0; i < 4; i++) {
+    drawing_put(dxf, 10, "%.15g", at[i == 1 || i == 2 ? 2 : 0]);
+    drawing_put(dxf, 20, "%.15g", at[i < 2 ? 1 : 3]);
+  }
+}
+
+// Two outlines of one layer that share an edge, or the part of one, as closed polylines and as
+// lines: both next to each other are material; an outline within the other at its edge is a recess,
+// which lines do not state. Outlines that are there twice count once.
+static void test_shared_edges(void) {
+  static const struct {
+    double one[4], two[4], volume; // divided by pi; of lines NAN: not read
+    bool lines;
+  } cases[] = {
+      {{0, 0, 5, 3}, {5, 0, 10, 3}, 90, true},   {{0, 0, 5, 3}, {5, 0, 10, 2}, 65, true},
+      {{0, -3, 5, 3}, {5, -2, 10, 2}, 65, true}, {{0, 1, 5, 3}, {0, 3, 5, 4}, 75, true},
+      {{0, 0, 10, 5}, {0, 2, 4, 4}, 202, false}, {{0, 0, 10, 5}, {0, 3, 4, 5}, 186, false},
+      {{0, 0, 10, 5}, {0, 0, 4, 1}, 246, false}, {{0, 0, 10, 5}, {0, 2, 10, 4}, 130, false},
+      {{0, 0, 10, 5}, {10, 5, 0, 0}, 250, true}};
+  for (size_t i = 0; i < 2 * G_N_ELEMENTS(cases); i++) {
+    const bool lines = i % 2 == 1;
+    g_autoptr(GString) dxf = drawing_begin(4);
+    for (int k = 0; k < 2; k++) {
+      const double *at = k == 0 ? cases[i / 2].one : cases[i / 2].two;
+      if (lines) {
+        put_rectangle(dxf, "part", at);
+      } else {
+        put_closed(dxf, at);
+      }
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    double volume = 0;
+    for (guint k = 0; k < cad->bodies->len; k++) {
+      const SbCadBody *body = cad->bodies->pdata[k];
+      g_assert_cmpint(body->why == NULL, ==, !lines || cases[i / 2].lines);
+      volume += body->solid.volume;
+    }
+    if (!lines || cases[i / 2].lines) {
+      g_assert_cmpfloat_with_epsilon(1e9 * volume / (M_PI * cases[i / 2].volume), 1, 1e-9);
+    }
+  }
+}
+
+// The edges of shoulders and ends of a turned part, with lines in any order; one that ends at the
+// middle of another line; those of a bore, which may be an edge as well.
+static void test_edges(void) {
+  static const double line[13][4] = {
+      {0, 3, 4, 3},   {4, 3, 4, 2},     {4, 2, 6, 2}, {6, 2, 6, 3}, {6, 3, 10, 3},
+      {10, 3, 10, 0}, {0, 0, 0, 3},     {4, 2, 4, 0}, {6, 0, 6, 2}, {10, 1, 12, 1},
+      {12, 1, 12, 0}, {0, 2.5, 4, 2.5}, {6, 2, 10, 3}};
+  for (int kind = 0; kind < 4; kind++) { // half and full, and with a line from corner to corner
+    g_autoptr(GString) dxf = drawing_begin(4);
+    for (int i = 0; i < 12 + (kind >= 2); i++) {
+      const double *p = line[5 * i % (12 + (kind >= 2))];
+      for (int side = 1; side >= (kind % 2 == 0 ? 1 : -1); side -= 2) {
+        drawing_line(dxf, "part", p[0], side * p[1], p[2], side * p[3]);
+      }
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpuint(cad->warnings->len, ==, 1);
+    g_assert_nonnull(strstr(cad->warnings->pdata[0], "within the outline, read as no bore"));
+    if (kind < 2) {
+      g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 82), 1, 1e-9);
+    } else {
+      g_assert_true(g_str_has_prefix(body->why, "lines within its outline are edges or a bore"));
+    }
+  }
+}
+
+// The halves of a full section that differ, also where they have one volume.
+static void test_halves(void) {
+  for (int kind = 0; kind < 3; kind++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    put_rectangle(dxf, "part", (double[4]){2, 1, 4, 3});
+    put_rectangle(dxf, "part", (double[4]){2, -1, 4, kind == 1 ? -3.5 : -3});
+    put_rectangle(dxf, "part", (double[4]){5, 1, 6, 2});
+    put_rectangle(dxf, "part", (double[4]){kind == 2 ? 6.5 : 5, -1, kind == 2 ? 7.5 : 6, -2});
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpuint(cad->bodies->len, ==, 2);
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / (M_PI * 16), 1, 1e-9);
+    g_assert_cmpuint(cad->warnings->len, ==, kind > 0);
+    if (kind > 0) {
+      g_assert_nonnull(strstr(cad->warnings->pdata[0],
+                              kind == 1 ? "differ by up to 0.5 mm" : "differ by up to 1.5 mm"));
+    }
+  }
+}
+
+// A circle of more lines than a half-section may have pieces, next to a straight side.
+static void test_many_pieces(void) {
+  g_autoptr(GString) dxf = drawing_begin(4);
+  const int count = 2000;
+  for (int i = 0; i < count; i++) {
+    const double a = M_PI * i / count, b = M_PI * (i + 1) / count;
+    drawing_line(dxf, "0", 5 * cos(a), 9 + 5 * sin(a), 5 * cos(b), 9 + 5 * sin(b));
+  }
+  drawing_line(dxf, "0", -5, 9, 5, 9);
+  drawing_end(dxf);
+  g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+  const SbCadBody *body = cad->bodies->pdata[0];
+  g_assert_cmpstr(body->why, ==, NULL);
+  g_assert_cmpuint(body->profile->len, <=, 6);
+  const double volume = 2 * M_PI * (9 * M_PI * 25 / 2 + 2 * 125 / 3.0);
+  g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / volume, 1, 1e-6);
 }
 
 // Lines drawn twice, also in part and the other way round, lines of no length, gaps, and circles
@@ -465,6 +602,10 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/left-out", test_left_out);
   g_test_add_func("/cad/centre-line", test_centre_line);
   g_test_add_func("/cad/cavities", test_cavities);
+  g_test_add_func("/cad/shared-edges", test_shared_edges);
+  g_test_add_func("/cad/edges", test_edges);
+  g_test_add_func("/cad/halves", test_halves);
+  g_test_add_func("/cad/many-pieces", test_many_pieces);
   g_test_add_func("/cad/untidy", test_untidy);
   g_test_add_func("/cad/units", test_units);
   return g_test_run();
