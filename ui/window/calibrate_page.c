@@ -5,11 +5,11 @@
 
 #include "app/base/translation.h"
 #include "app/export/calibrate_results.h"
+#include "app/session/calibrate_job.h"
 #include "app/session/worker.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
-#include "ui/window/calibrate_job.h"
 #include "ui/window/import_dialog.h"
 
 #include <glib/gi18n.h>
