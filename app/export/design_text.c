@@ -2,6 +2,7 @@
 #include "app/export/design_text.h"
 
 #include "app/base/translation.h"
+#include "app/base/unit.h"
 #include "app/export/design_results.h"
 
 #include <glib/gi18n.h>
@@ -58,7 +59,11 @@ char *sb_design_marks_text(const SbDesignAnswer *answer) {
   GString *text = g_string_new(NULL);
   g_autofree char *bounds = sb_design_bounds(&answer->found, answer->study);
   g_autofree char *codes = sb_warning_codes(answer->found.warnings, ", ");
+  if (!answer->found.converged) {
+    g_string_append(text, _("The search did not converge."));
+  }
   if (bounds != NULL) {
+    g_string_append(text, text->len > 0 ? "\n" : "");
     g_string_append_printf(text, _("On a bound of the search: %s."), bounds);
   }
   if (codes != NULL) {
@@ -66,6 +71,20 @@ char *sb_design_marks_text(const SbDesignAnswer *answer) {
     g_string_append_printf(text, _("Warnings of validity: %s."), codes);
   }
   return g_string_free(text, text->len == 0);
+}
+
+char *sb_design_step_text(SbParamId id, double step, bool tolerance) {
+  const SbParam *param = sb_param(id);
+  g_autofree char *text = sb_quantity_round(step, param->si, param->unit, 3);
+  return tolerance ? g_strconcat("± ", text, NULL) : g_strdup("± 5 %");
+}
+
+char *sb_design_share_text(const SbDesignPlace *at, size_t column, size_t k) {
+  const double sigma = at->effect[column][k].change / 3;
+  const double part = at->variance[column] > 0 ? 100 * sigma * sigma / at->variance[column] : NAN;
+  return !at->effect[column][k].tolerance ? g_strdup("–")
+         : part < 1                       ? g_strdup("< 1 %")
+                                          : g_strdup_printf("%.0f %%", part);
 }
 
 char *sb_design_fails_text(const SbDesignPlace *at) {

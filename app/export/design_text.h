@@ -17,9 +17,17 @@ const char *sb_design_part_text(SbDesignPart part);
 // those of sb_design_job_take().
 char *sb_design_end_text(const SbDesignAnswer *answer, const char *why);
 
-// Returns the bounds that the best design is on and its warnings of validity, a line each. NULL:
-// there are none, or no best design.
+// Returns what marks the best design, a line each: that the search did not converge, the bounds
+// that the design is on, its warnings of validity. NULL: nothing, or no best design.
 char *sb_design_marks_text(const SbDesignAnswer *answer);
+
+// Returns the step of a parameter (SbDesignPlace.effect): "± 0.03 mm", or "± 5 %" without a
+// tolerance.
+char *sb_design_step_text(SbParamId id, double step, bool tolerance);
+
+// Returns the fraction of the variance of the figure in `column` that the tolerance of its effect
+// `k` (from 0) causes; an en dash without a tolerance.
+char *sb_design_share_text(const SbDesignPlace *at, size_t column, size_t k);
 
 // Returns the fraction of the valves drawn about a design that violate a limit; an en dash if none
 // were drawn.
