@@ -272,8 +272,7 @@ static void draw_heads(SbBench *bench, int y, int width, const char *const *head
 
 // The parameters, scrolled to the selected one.
 static void draw_ranges(SbBench *bench, const SbDesignAnswer *answer, SbCellRect rect) {
-  static const char *const heads[] = {N_("present"), N_("best found"), N_("minimum"),
-                                      N_("maximum")};
+  static const char *const heads[] = {N_("present"), N_("best"), N_("minimum"), N_("maximum")};
   SbBenchDesign *design = &bench->design;
   const int count = (int)design->ask.count, rows = rect.height - 1;
   const int chosen = design->row - ROW_RANGES;
@@ -356,7 +355,7 @@ static void draw_figure(SbBench *bench, const SbDesignAnswer *answer, int figure
 
 // Draws the figures, and below them the drawn valves beyond a limit.
 static void draw_figures(SbBench *bench, const SbDesignAnswer *answer, SbCellRect rect) {
-  static const char *const heads[] = {N_("present"), N_("best found")};
+  static const char *const heads[] = {N_("present"), N_("best")};
   SbCells *cells = &bench->cells;
   const int x = rect.width - 2 * VALUE_ROOM - LIMIT_ROOM - MARK_ROOM - MARGIN_ROOM;
   const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
