@@ -25,47 +25,15 @@ static char *fitted_name(const SbStudyFile *study, size_t curve, size_t file) {
   return g_strdup_printf("fitted-%s.%s", name, fitted_file[file].ending);
 }
 
-// Explains estimates outside of their interval: the mode of a skewed posterior, for example one
-// that ends where the stem stops returning, may be beyond its 97.5 % quantile.
-static void print_modes_outside(const SbCalibration *of) {
-  for (size_t j = 0; j < of->parameters; j++) {
-    const SbCalibrated *one = &of->parameter[j];
-    if (one->estimate < one->interval[0] || one->estimate > one->interval[1]) {
-      printf("  %s: the estimate is the best fit, at the edge of a skewed posterior; the interval "
-             "leaves out 2.5 %% of the posterior at either end\n",
-             one->name);
-    }
-  }
-}
-
 static void print_calibrate_table(const SbStudyFile *study, const SbCalibration *of) {
   printf("%s: %zu curves, %zu points\n", study->title, of->curves, of->points);
   g_autoptr(SbTable) table = sb_calibration_table(of);
   (void)sb_cli_table(table, NULL);
-  print_modes_outside(of);
-  for (size_t c = 0; c < of->curves; c++) {
-    const SbCalibratedCurve *curve = &of->curve[c];
-    printf("  %s: differences %.3g N before, %.3g N after%s\n", curve->name, curve->before_rms,
-           curve->after != NULL ? curve->after->rms : NAN,
-           curve->spread > 1 ? "; they are correlated, and counted for less" : "");
-    if (curve->measured->force_zero == SB_HOW_ASSUMED) {
-      printf(
-          "  %s: the force's zero is not in the data and is used unchanged: an offset is fitted as "
-          "pressure\n",
-          curve->name);
-    }
+  g_autofree char *notes = sb_calibration_notes(of);
+  g_auto(GStrv) line = g_strsplit(notes, "\n", 0);
+  for (int i = 0; line[i] != NULL; i++) {
+    printf("  %s\n", line[i]);
   }
-  printf("  chi2 per degree of freedom %.3g%s\n", of->chi2,
-         of->chi2 > 1.5 ? ": more than noise is left, which the model cannot follow" : "");
-  if (of->tangent) {
-    printf("  posterior of the tangent at the fit; %d solved loops differ from it by %.3g N\n",
-           SB_CALIBRATION_CHECKS, of->check_rms);
-  }
-  g_autofree char *codes = sb_warning_codes(of->warnings, ", ");
-  if (codes != NULL) {
-    printf("  warnings of validity: %s\n", codes);
-  }
-  printf("  %s\n", of->sentence);
 }
 
 typedef struct {

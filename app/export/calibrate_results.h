@@ -15,6 +15,10 @@ char *sb_calibration_json(const SbCalibration *calibration, const SbStudyFile *s
 // identify them, for people. Freed by sb_table_free().
 SbTable *sb_calibration_table(const SbCalibration *calibration);
 
+// Returns what the fit left, for people, in lines: differences of each curve, chi square, warnings
+// of validity, and what the data do and do not identify. Freed by g_free().
+char *sb_calibration_notes(const SbCalibration *calibration);
+
 // Writes the samples of the posterior as comma-separated values: `sample` (number from 0), then a
 // column "key [SI unit]" for each parameter. The heading alone if nothing was sampled. Errors of
 // writing are left in the stream (ferror()).

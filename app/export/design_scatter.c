@@ -7,6 +7,7 @@
 #include "app/base/unit.h"
 #include "app/draw/axis.h"
 #include "app/draw/frame.h"
+#include "app/export/design_text.h"
 
 #include <glib/gi18n.h>
 #include <math.h>
@@ -31,12 +32,6 @@ static int shown_place(const SbDesignAnswer *answer) {
 }
 
 // Tornado -----------------------------------------------------------------------------------------
-
-static char *step_text(SbParamId id, double step, bool tolerance) {
-  const SbParam *param = sb_param(id);
-  g_autofree char *text = sb_quantity_round(step, param->si, param->unit, 3);
-  return tolerance ? g_strconcat("± ", text, NULL) : g_strdup("± 5 %");
-}
 
 // A tornado that is being drawn, in the figure's display unit.
 typedef struct {
@@ -89,20 +84,6 @@ static void draw_sides(const Tornado *t) {
   }
 }
 
-// The share of the variance that a tolerance causes, as text.
-static void share_text(char *out, size_t size, const Tornado *t, size_t k) {
-  const double sigma = t->at->effect[t->column][k].change / 3;
-  const double variance = t->at->variance[t->column];
-  const double part = variance > 0 ? 100 * sigma * sigma / variance : NAN;
-  if (!t->at->effect[t->column][k].tolerance) {
-    g_strlcpy(out, "–", size);
-  } else if (part < 1) {
-    g_strlcpy(out, "< 1 %", size);
-  } else {
-    g_snprintf(out, size, "%.0f %%", part);
-  }
-}
-
 static void draw_effect(const Tornado *t, size_t k, double y, double high) {
   SbCanvas *c = t->c;
   const SbRect plot = t->axes.plot;
@@ -126,11 +107,10 @@ static void draw_effect(const Tornado *t, size_t k, double y, double high) {
   const SbParamId id = t->at->effect[t->column][k].id;
   sb_canvas_text_fit(c, sb_translation(sb_param(id)->label), &name, t->rect.x, base,
                      fmin(150, 0.27 * t->rect.width) - 6);
-  g_autofree char *step =
-      step_text(id, t->at->effect[t->column][k].step, t->at->effect[t->column][k].tolerance);
+  g_autofree char *step = sb_design_step_text(id, t->at->effect[t->column][k].step,
+                                              t->at->effect[t->column][k].tolerance);
   sb_canvas_text(c, step, &small, plot.x - 10, base, SB_RIGHT);
-  char share[32];
-  share_text(share, sizeof share, t, k);
+  g_autofree char *share = sb_design_share_text(t->at, t->column, k);
   sb_canvas_text(c, share, &name, t->rect.x + t->rect.width, base, SB_RIGHT);
 }
 

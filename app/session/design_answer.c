@@ -65,3 +65,19 @@ double sb_design_sigmas(const SbDesignAnswer *answer, int place, size_t limit) {
   const double margin = fmin(at->figure[column] - of->low, of->high - at->figure[column]);
   return at->variance[column] > 0 ? margin / sqrt(at->variance[column]) : NAN;
 }
+
+size_t sb_design_best_values(SbOverride *values, const SbDesignAnswer *answer) {
+  const SbDesignPlace *best = &answer->place[SB_DESIGN_BEST];
+  const guint count = best->known ? answer->study->vary->len : 0;
+  for (guint k = 0; k < count; k++) {
+    const SbVary *vary = &g_array_index(answer->study->vary, SbVary, k);
+    const SbDistribution *of = &vary->distribution;
+    const SbParam *param = sb_param(vary->id);
+    const double wide = sb_quantity_to_shown(of->b, param->si, param->unit) -
+                        sb_quantity_to_shown(of->a, param->si, param->unit);
+    const int power = (int)floor(log10(fabs(wide) / 1000));
+    values[k] =
+        (SbOverride){vary->id, sb_quantity_step(best->value[k], param->si, param->unit, power, 0)};
+  }
+  return count;
+}

@@ -77,3 +77,7 @@ bool sb_design_on_map(const SbDesignAnswer *answer, int place);
 // Returns the margin to limit number `limit` (of study->limits) divided by the standard deviation
 // of its figure (from the design's variance); negative if the limit is violated. NaN: not known.
 double sb_design_sigmas(const SbDesignAnswer *answer, int place, size_t limit);
+
+// Writes the parameters of the best design to values[SB_VARY_MAX], rounded to a thousandth of their
+// range, and returns their number; 0: no best design is known.
+size_t sb_design_best_values(SbOverride *values, const SbDesignAnswer *answer);

@@ -61,13 +61,15 @@ void sb_design_ask_limit(SbDesignAsk *ask, int figure, double low, double high) 
 
 void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document) {
   *ask = (SbDesignAsk){.goal = sb_figure_find("cycle.force_breakaway_N"),
-                       .closed = true,
                        .limits = *sb_document_limits(document)};
   ask->left_out = ask->limits.count - MIN(ask->limits.count, SB_DESIGN_LIMITS);
   ask->limits.count -= ask->left_out;
   const SbParams params = sb_document_params(document);
   const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
   const SbDevice *device = sb_device_of_kind(kind);
+  // Closed forms are of a round section in a groove.
+  ask->closed =
+      device->gland && sb_params_get(&params, SB_P_SEAL_PROFILE) == SB_SEAL_PROFILE_CIRCLE;
   if (ask->limits.count == 0) {
     // The last is of a ring in its groove.
     ask->usual = true;
@@ -103,6 +105,22 @@ size_t sb_design_ask_figures(int *figure, size_t room) {
     }
   }
   return count;
+}
+
+size_t sb_design_ask_goals(int *figure, size_t room) {
+  const size_t count = sb_design_ask_figures(figure, room);
+  size_t goals = 0;
+  for (size_t i = 0; i < count; i++) {
+    if (sb_figure(figure[i])->better != SB_BETTER_NONE) {
+      figure[goals++] = figure[i];
+    }
+  }
+  return goals;
+}
+
+void sb_design_ask_set_goal(SbDesignAsk *ask, int figure) {
+  ask->goal = figure;
+  ask->maximise = sb_figure(figure)->better == SB_BETTER_MORE;
 }
 
 static void append_quantity(GString *text, double value, const char *si, const char *unit) {

@@ -33,15 +33,21 @@ typedef struct {
 } SbDesignAsk;
 
 // Sets the initial request for a document: minimum break-away force within the document's limits or
-// usual ones, with closed forms. The ranges are those of its main real parameters, 10 % about their
-// values. Free, and the axes of the map, are section diameter and radial space (of a gasket valve
-// bore diameter and crimp).
+// usual ones, with closed forms if these know its seals. The ranges are those of its main real
+// parameters, 10 % about their values. Free, and the axes of the map, are section diameter and
+// radial space (of a gasket valve bore diameter and crimp).
 void sb_design_ask_init(SbDesignAsk *ask, const SbDocument *document);
 
 // Writes the figures (indices of sb_figure()) that can be the objective or have a limit to
 // figure[room] and returns their number. Further figures than `room` are omitted; SB_FIGURE_COUNT
 // is enough for all.
 size_t sb_design_ask_figures(int *figure, size_t room);
+
+// As sb_design_ask_figures(), the figures that can be the objective.
+size_t sb_design_ask_goals(int *figure, size_t room);
+
+// Sets the objective: a figure of sb_design_ask_goals(), which is maximised if more is better.
+void sb_design_ask_set_goal(SbDesignAsk *ask, int figure);
 
 // Sets the limit from `low` to `high` [SI] on a figure (index of sb_figure()), in place of an
 // earlier one; an infinite end is open. Both ends open removes the limit. `usual` becomes false. A

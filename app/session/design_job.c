@@ -385,6 +385,9 @@ SbDesignJob *sb_design_job_start(SbStudyFile *study, const SbDesignAsk *ask, SbS
   }
   const size_t points = map->n * map->n;
   map->value = g_new(double, points * map->figures);
+  for (size_t i = 0; i < points * map->figures; i++) {
+    map->value[i] = NAN;
+  }
   map->status = g_malloc(points);
   memset(map->status, SB_ANSWER_MISSING, points);
   job->sample = g_new(size_t, points);

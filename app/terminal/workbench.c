@@ -37,33 +37,69 @@ void sb_bench_end(SbBench *bench) {
 
 // Drawing ----------------------------------------------------------------------------------------
 
+// A key in the last row; `ascii` NULL: the same in an ASCII grid.
+typedef struct {
+  const char *key, *ascii, *word;
+} KeyHint;
+
+static const KeyHint valve_hints[] = {
+    {"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("value")}, {"⏎", "Enter", N_("type")},
+    {"␣", "Spc", N_("play")},   {"[ ]", NULL, N_("event")},   {"p", NULL, N_("pin")},
+    {"m", NULL, N_("model")},   {"e", NULL, N_("effect")},    {"v", NULL, N_("verdict")},
+    {"x", NULL, N_("export")},  {"?", NULL, N_("help")},      {"q", NULL, N_("quit")}};
+static const KeyHint design_hints[] = {
+    {"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("switch")}, {"⏎", "Enter", N_("compute")},
+    {"c", NULL, N_("cancel")},  {"a", NULL, N_("apply")},      {"e", NULL, N_("effect")},
+    {"u", NULL, N_("undo")},    {"?", NULL, N_("help")},       {"q", NULL, N_("quit")}};
+static const KeyHint calibrate_hints[] = {
+    {"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("switch")}, {"⏎", "Enter", N_("compute")},
+    {"c", NULL, N_("cancel")},  {"a", NULL, N_("apply")},      {"u", NULL, N_("undo")},
+    {"?", NULL, N_("help")},    {"q", NULL, N_("quit")}};
+static const KeyHint study_hints[] = {{"↑↓", "Up/Dn", N_("row")},
+                                      {"⏎", "Enter", N_("compute")},
+                                      {"c", NULL, N_("cancel")},
+                                      {"?", NULL, N_("help")},
+                                      {"q", NULL, N_("quit")}};
+
+static const struct {
+  const KeyHint *hint;
+  size_t count;
+} hints_of[SB_PAGE_COUNT] = {
+    [SB_PAGE_VALVE] = {valve_hints, G_N_ELEMENTS(valve_hints)},
+    [SB_PAGE_DESIGN] = {design_hints, G_N_ELEMENTS(design_hints)},
+    [SB_PAGE_CALIBRATE] = {calibrate_hints, G_N_ELEMENTS(calibrate_hints)},
+    [SB_PAGE_PROPELLANTS] = {study_hints, G_N_ELEMENTS(study_hints)},
+    [SB_PAGE_STUDIES] = {study_hints, G_N_ELEMENTS(study_hints)},
+};
+
+static const char *hint_key(const SbBench *bench, const KeyHint *hint) {
+  return bench->cells.ascii && hint->ascii != NULL ? hint->ascii : hint->key;
+}
+
 static void draw_keys(SbBench *bench, int y) {
-  static const struct {
-    const char *key, *ascii, *word;
-  } keys[] = {{"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("value")}, {"⏎", "Enter", N_("type")},
-              {"␣", "Spc", N_("play")},   {"[ ]", "[ ]", N_("event")},  {"p", "p", N_("pin")},
-              {"m", "m", N_("model")},    {"e", "e", N_("effect")},     {"v", "v", N_("verdict")},
-              {"x", "x", N_("export")},   {"?", "?", N_("help")},       {"q", "q", N_("quit")}};
+  const KeyHint *hint = hints_of[bench->page].hint;
+  const size_t count = hints_of[bench->page].count;
   SbCells *cells = &bench->cells;
   int need = 0;
-  for (size_t i = 0; i < G_N_ELEMENTS(keys); i++) {
-    need += sb_cells_width(cells, cells->ascii ? keys[i].ascii : keys[i].key) +
-            sb_cells_width(cells, _(keys[i].word)) + 1;
+  for (size_t i = 0; i < count; i++) {
+    need += sb_cells_width(cells, hint_key(bench, &hint[i])) +
+            sb_cells_width(cells, _(hint[i].word)) + 1;
   }
-  // Short of room, the arrows and what lies at hand go without words, so that help and quit are
-  // told.
-  const int count = (int)G_N_ELEMENTS(keys);
-  const size_t wordless = cells->columns - 2 - need < count - 1 ? 5 : 0;
-  for (size_t i = 0; i < wordless; i++) {
-    need -= sb_cells_width(cells, _(keys[i].word)) + 1;
+  // Short of room, the arrows and the next keys go without words, more of them if need be, so that
+  // help and quit have theirs.
+  enum { FIRST = 5, LAST = 2 };
+  size_t wordless = 0;
+  while (wordless < count - LAST &&
+         (cells->columns - 2 - need < (int)count - 1 || (wordless > 0 && wordless < FIRST))) {
+    need -= sb_cells_width(cells, _(hint[wordless++].word)) + 1;
   }
-  const int gap = CLAMP((cells->columns - 2 - need) / (count - 1), 1, 3);
+  const int gap = CLAMP((cells->columns - 2 - need) / ((int)count - 1), 1, 3);
   int x = 1;
-  for (size_t i = 0; i < G_N_ELEMENTS(keys) && x < cells->columns; i++) {
-    x += sb_cells_text(cells, x, y, cells->columns - x, cells->ascii ? keys[i].ascii : keys[i].key,
+  for (size_t i = 0; i < count && x < cells->columns; i++) {
+    x += sb_cells_text(cells, x, y, cells->columns - x, hint_key(bench, &hint[i]),
                        sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
     if (i >= wordless) {
-      x += 1 + sb_cells_text(cells, x + 1, y, cells->columns - x - 1, _(keys[i].word),
+      x += 1 + sb_cells_text(cells, x + 1, y, cells->columns - x - 1, _(hint[i].word),
                              sb_bench_pen(bench, SB_ROLE_SECOND, 0));
     }
     x += gap;
@@ -135,7 +171,8 @@ static gboolean on_draw(gpointer data) {
 // Whether something is under way that tells how far it is.
 static bool is_busy(const void *data) {
   const SbBench *bench = data;
-  return bench->job != NULL || bench->export != NULL;
+  return bench->job != NULL || bench->design.job != NULL || bench->calibrate.job != NULL ||
+         bench->export != NULL;
 }
 
 static gboolean on_tick(gpointer data) {
@@ -187,6 +224,8 @@ static void on_params(SbBench *bench) {
   if (bench->list == SB_LIST_CHANGED && bench->input == SB_INPUT_NONE) {
     sb_bench_list(bench);
   }
+  sb_bench_design_follow(bench);
+  sb_bench_calibrate_follow(bench);
   sb_bench_changed(bench);
 }
 
@@ -253,6 +292,8 @@ static void finish(SbBench *bench) {
   }
   g_signal_handlers_disconnect_by_data(bench->session, bench);
   g_clear_pointer(&bench->job, sb_study_job_free);
+  sb_bench_design_finish(bench);
+  sb_bench_calibrate_finish(bench);
   g_clear_pointer(&bench->export, sb_export_job_free);
   g_clear_pointer(&bench->cases, sb_cases_job_free);
   g_clear_pointer(&bench->effects, sb_effect_watch_free);
@@ -313,6 +354,9 @@ bool sb_workbench_run(const SbWorkbenchOptions *options, GError **error) {
     g_signal_connect_swapped(bench.session, "playhead-changed", G_CALLBACK(sb_bench_changed),
                              &bench);
     sb_bench_list(&bench);
+    sb_bench_design_follow(&bench);
+    sb_calibrate_ask_init(&bench.calibrate.ask);
+    sb_bench_calibrate_follow(&bench);
     bench.effects = sb_effect_watch_new(bench.session, on_effects, is_busy, &bench);
     sb_bench_changed(&bench);
     g_timeout_add(300, on_restore, &bench);

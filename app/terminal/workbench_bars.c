@@ -31,8 +31,8 @@ void sb_bench_draw_header(SbBench *bench) {
 
   // Pages, then the model on the right; the document takes what they leave.
   static const char *const pages[SB_PAGE_COUNT] = {N_("Valve"), N_("Design"), N_("Calibrate"),
-                                                   N_("Propellants")};
-  const bool narrow = width < 100;
+                                                   N_("Propellants"), N_("Studies")};
+  const bool narrow = width < 110;
   int need = 0;
   for (int i = 0; i < SB_PAGE_COUNT; i++) {
     need += narrow && i != (int)bench->page ? 3 : sb_cells_width(cells, _(pages[i])) + 4;

@@ -72,9 +72,25 @@ static void unpin(SbBench *bench) {
   sb_session_unpin(bench->session, count - 1);
 }
 
+// Ends what a page computes. Returns whether it computes something.
+static bool stop_page(SbBench *bench, SbBenchPage page) {
+  switch (page) {
+  case SB_PAGE_DESIGN:
+    return sb_bench_design_stop(bench);
+  case SB_PAGE_CALIBRATE:
+    return sb_bench_calibrate_stop(bench);
+  case SB_PAGE_PROPELLANTS:
+  case SB_PAGE_STUDIES:
+    return sb_bench_study_stop(bench);
+  default:
+    return false;
+  }
+}
+
 static void cancel(SbBench *bench) {
-  if (bench->job != NULL) {
-    sb_bench_study_stop(bench);
+  if (stop_page(bench, bench->page) || stop_page(bench, SB_PAGE_DESIGN) ||
+      stop_page(bench, SB_PAGE_CALIBRATE) || stop_page(bench, SB_PAGE_STUDIES)) {
+    sb_bench_status(bench, false, _("cancelling…"));
   } else if (bench->export != NULL) {
     sb_worker_cancel(bench->export);
     sb_bench_status(bench, false, _("cancelling…"));
@@ -210,6 +226,7 @@ static bool view_key(SbBench *bench, unsigned character) {
   case '2':
   case '3':
   case '4':
+  case '5':
     choose_page(bench, (SbBenchPage)(character - '1'));
     return true;
   case '?':
@@ -219,7 +236,11 @@ static bool view_key(SbBench *bench, unsigned character) {
     cancel(bench);
     return true;
   case 'e':
-    bench->goal = (bench->goal + 1) % SB_EFFECT_GOALS;
+    if (bench->page == SB_PAGE_DESIGN) {
+      sb_bench_design_effect(bench);
+    } else {
+      bench->goal = (bench->goal + 1) % SB_EFFECT_GOALS;
+    }
     return true;
   case 'f':
     next_field(bench);
@@ -312,9 +333,9 @@ static void valve_key(SbBench *bench, const SbKey *key) {
 }
 
 static void study_key(SbBench *bench, const SbKey *key) {
-  const bool list = bench->page == SB_PAGE_DESIGN;
+  const bool list = bench->page == SB_PAGE_STUDIES;
   const int kind = (int)bench->study_kind;
-  if (key->kind == SB_KEY_ENTER && bench->page != SB_PAGE_CALIBRATE) {
+  if (key->kind == SB_KEY_ENTER) {
     sb_bench_study_start(bench);
   } else if (list && (key->kind == SB_KEY_UP || key->kind == SB_KEY_DOWN)) {
     bench->study_kind =
@@ -338,6 +359,10 @@ void sb_bench_key(SbBench *bench, const SbKey *key) {
     // done
   } else if (bench->page == SB_PAGE_VALVE) {
     valve_key(bench, key);
+  } else if (bench->page == SB_PAGE_DESIGN) {
+    sb_bench_design_key(bench, key);
+  } else if (bench->page == SB_PAGE_CALIBRATE) {
+    sb_bench_calibrate_key(bench, key);
   } else {
     study_key(bench, key);
   }

@@ -1,4 +1,4 @@
-// The pages of studies and of what was measured, and what is shown over a page: help, the verdict's
+// The pages of studies, and what is shown over a page: help, the verdict's
 // reasons, warnings, questions.
 #include "app/terminal/workbench_private.h"
 
@@ -47,11 +47,11 @@ void sb_bench_study_start(SbBench *bench) {
   sb_bench_changed(bench);
 }
 
-void sb_bench_study_stop(SbBench *bench) {
+bool sb_bench_study_stop(SbBench *bench) {
   if (bench->job != NULL) {
     sb_worker_cancel(bench->job);
-    sb_bench_status(bench, false, _("cancelling…"));
   }
+  return bench->job != NULL;
 }
 
 // What people read in a table's cell.
@@ -123,17 +123,30 @@ static void draw_study(SbBench *bench, SbCellRect rect) {
   }
 }
 
+SbPen sb_bench_row(SbBench *bench, int x, int y, int width, bool chosen) {
+  const bool plain = sb_screen_colors(bench->screen) == SB_COLORS_NONE;
+  SbPen pen = sb_bench_pen(bench, SB_ROLE_INK,
+                           (uint8_t)(chosen ? SB_CELL_BOLD | (plain ? SB_CELL_REVERSE : 0) : 0));
+  pen.ground = chosen ? bench->theme.role[SB_ROLE_HAIRLINE] : bench->theme.ground;
+  sb_cells_fill(&bench->cells, (SbCellRect){x, y, width, 1}, ' ', pen);
+  return pen;
+}
+
+void sb_bench_draw_progress(SbBench *bench, int x, int y, int width, const char *title,
+                            double share) {
+  g_autofree char *text = g_strdup_printf("%s %.0f %%", title, 100 * share);
+  sb_cells_text(&bench->cells, x, y, width, text, sb_bench_pen(bench, SB_ROLE_NOW, SB_CELL_BOLD));
+  sb_cells_bar(&bench->cells, x, y + 1, (int)lround(8 * share * width),
+               sb_bench_pen(bench, SB_ROLE_NOW, 0));
+}
+
 // How far it is, or whether it is of other values.
 static void draw_study_state(SbBench *bench, SbCellRect rect) {
   g_autofree char *now = sb_document_sha256(sb_session_document(bench->session));
   if (bench->job != NULL) {
-    const double share = sb_worker_progress(bench->job);
-    g_autofree char *text =
-        g_strdup_printf("%s %.0f %%", sb_translation(sb_study_title(bench->job_kind)), 100 * share);
-    sb_cells_text(&bench->cells, rect.x, rect.y, rect.width, text,
-                  sb_bench_pen(bench, SB_ROLE_NOW, SB_CELL_BOLD));
-    sb_cells_bar(&bench->cells, rect.x, rect.y + 1, (int)lround(8 * share * rect.width),
-                 sb_bench_pen(bench, SB_ROLE_NOW, 0));
+    sb_bench_draw_progress(bench, rect.x, rect.y, rect.width,
+                           sb_translation(sb_study_title(bench->job_kind)),
+                           sb_worker_progress(bench->job));
   } else if (bench->study != NULL && bench->study->kind == bench->study_kind &&
              g_strcmp0(now, bench->study_hash) != 0) {
     sb_cells_text(&bench->cells, rect.x, rect.y, rect.width, _("of earlier values"),
@@ -146,18 +159,13 @@ static void draw_study_state(SbBench *bench, SbCellRect rect) {
   }
 }
 
-static void draw_design(SbBench *bench, SbCellRect rect) {
+static void draw_studies(SbBench *bench, SbCellRect rect) {
   enum { LIST = 38 };
   SbCells *cells = &bench->cells;
   sb_cells_text(cells, 1, rect.y, LIST - 2, _("Studies of this valve"),
                 sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
   for (int i = 0; i < SB_STUDY_COUNT; i++) {
-    const bool chosen = i == (int)bench->study_kind;
-    const bool plain = sb_screen_colors(bench->screen) == SB_COLORS_NONE;
-    SbPen pen = sb_bench_pen(bench, SB_ROLE_INK,
-                             (uint8_t)(chosen ? SB_CELL_BOLD | (plain ? SB_CELL_REVERSE : 0) : 0));
-    pen.ground = chosen ? bench->theme.role[SB_ROLE_HAIRLINE] : bench->theme.ground;
-    sb_cells_fill(cells, (SbCellRect){0, rect.y + 2 + i, LIST - 1, 1}, ' ', pen);
+    const SbPen pen = sb_bench_row(bench, 0, rect.y + 2 + i, LIST - 1, i == (int)bench->study_kind);
     sb_cells_text(cells, 2, rect.y + 2 + i, LIST - 4,
                   sb_translation(sb_study_title((SbStudyKind)i)), pen);
   }
@@ -177,89 +185,19 @@ static void draw_propellants(SbBench *bench, SbCellRect rect) {
   draw_study(bench, (SbCellRect){2, rect.y + 2, rect.width - 4, rect.height - 2});
 }
 
-// Measured ---------------------------------------------------------------------------------------
-
-// Draws the table of forces at the stages from row `y`. Returns its last row.
-static int draw_pages_stages(SbBench *bench, const SbComparison *measured, int y) {
-  SbCells *cells = &bench->cells;
-  const SbPen plain = sb_bench_pen(bench, SB_ROLE_INK, 0);
-  const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
-  static const char *const heads[] = {N_("stage"), N_("measured"), N_("model"), N_("difference")};
-  for (int i = 0; i < 4; i++) {
-    sb_cells_text_right(cells, 1 + (i > 0 ? 6 + 11 * (i - 1) : 0), y, i > 0 ? 11 : 6, _(heads[i]),
-                        quiet);
-  }
-  for (int s = SB_STAGE_B; s < SB_STAGE_COUNT; s++) {
-    const SbMeasuredStage *stage = &measured->measured->stage[s];
-    const double has = stage->found ? stage->force : NAN, model = measured->model_force[s];
-    if (isnan(has) && isnan(model)) {
-      continue;
-    }
-    char *value[3];
-    sb_measured_stage_texts(value, measured, (SbStage)s);
-    y++;
-    sb_cells_text(cells, 5, y, 2, sb_stage_name((SbStage)s), plain);
-    for (int i = 0; i < 3; i++) {
-      sb_cells_text_right(cells, 7 + 11 * i, y, 11, value[i], plain);
-      g_free(value[i]);
-    }
-  }
-  return y;
-}
-
-static void draw_calibrate(SbBench *bench, SbCellRect rect) {
-  SbCells *cells = &bench->cells;
-  const SbChartData *data = sb_session_chart(bench->session);
-  const SbComparison *measured = data->measured;
-  const SbPen plain = sb_bench_pen(bench, SB_ROLE_INK, 0);
-  const SbPen quiet = sb_bench_pen(bench, SB_ROLE_SECOND, 0);
-  sb_cells_text(cells, 1, rect.y, rect.width - 2, _("Measured and computed"),
-                sb_bench_pen(bench, SB_ROLE_INK, SB_CELL_BOLD));
-  const char *failure = sb_session_measured_failure(bench->session);
-  if (measured == NULL) {
-    sb_cells_paragraph(
-        cells, (SbCellRect){1, rect.y + 2, rect.width - 2, 4},
-        failure != NULL ? failure
-                        : _("No loop was measured: a group [data] in the scene names its file, as "
-                            "in `file = machine-export.csv`. `sealbench calibrate FILE.study` fits "
-                            "parameters to one and reports which are identifiable."),
-        failure != NULL ? sb_bench_pen(bench, SB_ROLE_ERROR, 0) : quiet);
-    return;
-  }
-  enum { TABLE = 40 };
-  const int y = draw_pages_stages(bench, measured, rect.y + 2);
-  g_autofree char *rms = sb_measured_difference(measured->rms);
-  g_autofree char *most = sb_measured_difference(measured->most);
-  g_autofree char *text =
-      g_strdup_printf(_("rms %s, at most %s, %zu rows"), rms, most, measured->count);
-  sb_cells_text(cells, 1, y + 2, TABLE - 2, text, plain);
-  const SbCellRect loop = {TABLE + 2, rect.y, rect.width - TABLE - 4, rect.height * 2 / 3};
-  sb_chart_loop(cells, loop, &bench->theme, data, 0);
-  g_autofree double *x = g_new(double, measured->count + 1);
-  for (size_t i = 0; i < measured->count; i++) {
-    x[i] = 1e3 * measured->point[i].displacement;
-  }
-  const SbCellCurve residual = {.name = "",
-                                .x = x,
-                                .y = measured->residual,
-                                .count = measured->count,
-                                .role = SB_ROLE_OCHRE,
-                                .dots = true};
-  sb_chart_curves(cells,
-                  (SbCellRect){loop.x, loop.y + loop.height, loop.width, rect.height - loop.height},
-                  &bench->theme, _("measured less model / N over mm"), &residual, 1, false, false);
-}
-
 void sb_bench_draw_page(SbBench *bench, SbCellRect rect) {
   switch (bench->page) {
   case SB_PAGE_DESIGN:
-    draw_design(bench, rect);
+    sb_bench_draw_design(bench, rect);
     break;
   case SB_PAGE_CALIBRATE:
-    draw_calibrate(bench, rect);
+    sb_bench_draw_calibrate(bench, rect);
     break;
   case SB_PAGE_PROPELLANTS:
     draw_propellants(bench, rect);
+    break;
+  case SB_PAGE_STUDIES:
+    draw_studies(bench, rect);
     break;
   default:
     sb_bench_draw_valve(bench, rect);
@@ -281,8 +219,8 @@ static const char *const help[] = {
     N_("e               the figure whose effects are shown"),
     N_("f  i            field of the section, inset"),
     N_("v  w            verdict and warnings in words"),
-    N_("c               cancel the run or the study"),
-    N_("1 2 3 4         valve, studies, measured, propellants"),
+    N_("1 2 3 4 5       valve, design, calibrate, propellants, studies"),
+    N_("⏎  c  a         there: compute, cancel, use the best design or the estimates"),
     N_("s  S  o         save, save as, open"),
     N_("x               export: .json, .txt of this screen, a picture or movie of a view"),
     N_("Ctrl-L          redraw the screen; Ctrl-Z suspend"),

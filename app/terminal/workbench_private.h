@@ -1,7 +1,8 @@
 // Shared by the files of the workbench in a terminal: workbench.c (start, end, drawing),
-// workbench_valve.c and workbench_pages.c (content of the pages), workbench_params.c (list of
-// parameters), workbench_export.c, workbench_keys.c (keys and mouse) and workbench_entry.c (lines
-// that the user types, popups). Main thread only.
+// workbench_valve.c, workbench_design.c, workbench_design_map.c, workbench_calibrate.c and
+// workbench_pages.c (content of the pages), workbench_params.c (list of parameters),
+// workbench_export.c, workbench_keys.c (keys and mouse) and workbench_entry.c (lines that the user
+// types, popups). Main thread only.
 //
 // Drawing: sb_bench_draw_...() write to bench->cells, and workbench.c alone calls them when the
 // screen is to be drawn. All other functions that change what is displayed request a drawing
@@ -11,7 +12,10 @@
 
 #include "app/export/export_job.h"
 #include "app/session/autosave.h"
+#include "app/session/calibrate_ask.h"
+#include "app/session/calibrate_job.h"
 #include "app/session/cases_job.h"
+#include "app/session/design_job.h"
 #include "app/session/effect_watch.h"
 #include "app/session/section_source.h"
 #include "app/session/session.h"
@@ -25,6 +29,7 @@ typedef enum {
   SB_PAGE_DESIGN,
   SB_PAGE_CALIBRATE,
   SB_PAGE_PROPELLANTS,
+  SB_PAGE_STUDIES,
   SB_PAGE_COUNT
 } SbBenchPage;
 
@@ -61,6 +66,33 @@ typedef struct {
   int id;            // SbParamId, or SB_HEADING_ROW
   const char *title; // of a heading; static
 } SbListRow;
+
+// The page Design. Objects are owned.
+typedef struct {
+  SbDesignAsk ask;            // what is requested
+  const SbDocument *document; // the document that `ask` belongs to; only compared
+  int kind;                   // kind of its valve
+  int row, scroll;        // selected row: objective, models, ranges; ranges above the visible ones
+  size_t effect;          // index of the figure, among those shown, whose effects are drawn
+  SbDesignJob *job;       // NULL: none
+  SbDesignAnswer *answer; // last results; NULL: none
+  SbStore *store;         // store of evaluations; NULL: not open
+  char *hash;             // sb_document_sha256() of the values of the last request
+  char *said;             // how the last search ended; NULL: no search yet
+  bool changed;           // the request was changed since
+} SbBenchDesign;
+
+// The page Calibrate. Objects are owned.
+typedef struct {
+  SbCalibrateAsk ask;  // what is requested
+  int row;             // selected parameter
+  SbCalibrateJob *job; // NULL: none
+  SbStudyFile *study;  // of `found`; NULL: there is no result
+  SbCalibration found;
+  SbData *fitted; // the data that `found` and `job` belong to; NULL: none
+  char *hash;     // sb_document_sha256() of the values of the last request
+  char *said;     // why there is no result, or only a part of it; NULL: nothing
+} SbBenchCalibrate;
 
 // The workbench. Objects are owned unless stated otherwise.
 typedef struct {
@@ -115,6 +147,9 @@ typedef struct {
   SbStudyKind job_kind;        // of `job`
   SbStudy *study;              // last complete study, of any kind; NULL: none yet
   char *study_hash, *job_hash; // sb_document_sha256() of the values of `study` and `job`
+
+  SbBenchDesign design;
+  SbBenchCalibrate calibrate;
 
   SbExportJob *export; // running; NULL: none
   SbCasesJob *cases;   // of the displayed run if the scene has cases; NULL: none
@@ -178,14 +213,71 @@ void sb_bench_draw_page(SbBench *bench, SbCellRect rect);
 // Draws the popup over the page if there is one.
 void sb_bench_draw_popup(SbBench *bench);
 
+// Returns the pen of a row in a list, whose background it fills from (x, y) over `width` columns;
+// `chosen`: the selected row.
+SbPen sb_bench_row(SbBench *bench, int x, int y, int width, bool chosen);
+
+// Draws what is being computed with its progress `share`, 0 to 1, into two rows.
+void sb_bench_draw_progress(SbBench *bench, int x, int y, int width, const char *title,
+                            double share);
+
 // Starts to compute the study bench->study_kind with the present values. The result appears in
 // bench->study later. Starts nothing and shows a message if a study is being computed, or if the
 // values are inconsistent.
 void sb_bench_study_start(SbBench *bench);
 
 // Requests that the study being computed ends; bench->job becomes NULL later, from the main loop,
-// and bench->study stays. Does nothing if no study is being computed.
-void sb_bench_study_stop(SbBench *bench);
+// and bench->study stays. Returns whether a study is being computed.
+bool sb_bench_study_stop(SbBench *bench);
+
+// ---- workbench_design.c ----
+
+// Sets the initial request if the document or the kind of its valve is another one; then ends the
+// running search and forgets its result. To be called at the start and after each edit.
+void sb_bench_design_follow(SbBench *bench);
+
+// Acts on a key of the page.
+void sb_bench_design_key(SbBench *bench, const SbKey *key);
+
+// Shows the effects on the next figure of the page.
+void sb_bench_design_effect(SbBench *bench);
+
+// Requests that the running search ends. Returns whether there is one.
+bool sb_bench_design_stop(SbBench *bench);
+
+// Draws the page into `rect`.
+void sb_bench_draw_design(SbBench *bench, SbCellRect rect);
+
+// Ends the search and frees what the page owns.
+void sb_bench_design_finish(SbBench *bench);
+
+// ---- workbench_design_map.c ----
+
+// Draws the map of a search into `rect`; `answer` NULL: none, and nothing is drawn.
+void sb_bench_draw_design_map(SbBench *bench, const SbDesignAnswer *answer, SbCellRect rect);
+
+// Draws the largest effects of tolerances on a figure (index of sb_figure()), at the best design if
+// there is one, as many as `rect` has rows for.
+void sb_bench_draw_design_effects(SbBench *bench, const SbDesignAnswer *answer, int figure,
+                                  SbCellRect rect);
+
+// ---- workbench_calibrate.c ----
+
+// Ends the calibration and forgets its result if the document has other measured data. To be called
+// at the start and after each edit.
+void sb_bench_calibrate_follow(SbBench *bench);
+
+// Acts on a key of the page.
+void sb_bench_calibrate_key(SbBench *bench, const SbKey *key);
+
+// Requests that the running calibration ends. Returns whether there is one.
+bool sb_bench_calibrate_stop(SbBench *bench);
+
+// Draws the page into `rect`.
+void sb_bench_draw_calibrate(SbBench *bench, SbCellRect rect);
+
+// Ends the calibration and frees what the page owns.
+void sb_bench_calibrate_finish(SbBench *bench);
 
 // ---- workbench_export.c ----
 

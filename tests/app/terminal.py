@@ -38,7 +38,7 @@ class Terminal:
             text = re.sub(r'(?m)^valve = .*', 'valve = piston.valve', scene.read())
         with open(f'{self.folder}/quick-look.scene', 'w', encoding='utf-8') as scene:
             scene.write(text)
-        settings = {'XDG_DATA_HOME': f'{self.folder}/data', 'LC_ALL': 'C.UTF-8',
+        settings = {'XDG_DATA_HOME': f'{self.folder}/data', 'XDG_CACHE_HOME': f'{self.folder}/cache', 'LC_ALL': 'C.UTF-8',
                     'COLORTERM': 'truecolor', 'PS1': '$ ', 'ENV': '', 'HISTFILE': '/dev/null'}
         settings.update(environment)
         keep = {key: value for key, value in os.environ.items() if key not in ('TMUX', 'NO_COLOR')}
@@ -158,7 +158,7 @@ def test_session():
         terminal.see(rf"│ C +{re.escape(after['C'])} +{re.escape(after['C'])}")
 
         # A study that is cancelled, and one that comes to its end.
-        terminal.keys('2')
+        terminal.keys('5')
         terminal.see('Studies of this valve')
         terminal.keys('Enter')
         terminal.see(r'Load over squeeze \d+ %')
@@ -176,6 +176,132 @@ def test_session():
         terminal.keys('q')
         terminal.see('left 0')
         same(terminal.stty(), terminal.modes, 'stty after the end')
+
+
+def shown(text, value, what):
+    """A number as the screen shows it is the value, to the shown digits."""
+    number = text.replace('−', '-')
+    decimals = len(number.partition('.')[2])
+    same(number, f'{value:.{decimals}f}', what)
+
+
+def answer_of(terminal, command, name, text):
+    """The JSON of a command about a study file in the folder of a terminal."""
+    with open(f'{terminal.folder}/{name}', 'w', encoding='utf-8') as study:
+        study.write('[sealbench]\nformat = 1\nkind = study\nscene = quick-look.scene\n' + text)
+    return json.loads(subprocess.run([PROGRAM, command, name, '-q', '--json', '-'], cwd=terminal.folder,
+                                     capture_output=True, check=True).stdout)
+
+
+def test_design():
+    """The page Design finds what `design` finds, and applies it as one step of undo."""
+    with Terminal(140, 45) as terminal:
+        terminal.start('quick-look.scene')
+        terminal.see(r'│ C +\d')
+        terminal.keys('2')
+        terminal.see('minimum break-away force')
+        terminal.keys('a')
+        terminal.see('There is no best design yet')
+        terminal.keys('Enter')
+        screen = terminal.see(r'\d+ of \d+ starts meet all limits, \d+ evaluations')
+        labels = {'seal.section_diameter': 'Section diameter', 'gland.radial_space': 'Radial space'}
+        rows = {key: re.search(rf'✓ {label} +(\S+) mm +(\S+) mm +(\S+) mm +(\S+) mm', screen).groups()
+                for key, label in labels.items()}
+        limits = {'cycle.force_breakaway_N': ('Break-away force', '<= 30 N'),
+                  'cycle.force_return_margin_N': ('Return margin', '>= 2 N'),
+                  'seals.outer.squeeze': ('Squeeze, outer seal', '8 % .. 25 %'),
+                  'seals.outer.gland_fill': ('Gland fill, outer seal', '<= 85 %')}
+        want = answer_of(terminal, 'design', 'light.study', '\n'.join(
+            ['[vary]'] + [f'{key} = uniform {row[2]} mm .. {row[3]} mm' for key, row in rows.items()] +
+            ['[design]', 'objective = minimise cycle.force_breakaway_N', '[limits]'] +
+            [f'{path} = {limit}' for path, (_, limit) in limits.items()]) + '\n')
+        for key, row in rows.items():
+            shown(row[1], 1e3 * want['parameters'][key], key)
+        for path, (label, limit) in limits.items():
+            row = re.search(rf'{label} +(\S+) [N%] +(\S+) ([N%]) +{re.escape(limit)} +✓( active)?', screen)
+            shown(row.group(2), want['figures'][path] * (100 if row.group(3) == '%' else 1), path)
+            same(bool(row.group(4)), path in want['active'], f'{path} active')
+        same('Section diameter' in re.findall(r'✓ (.*?)  .* lower', screen), True, 'the bound')
+        assert want['bounds_active'] == ['seal.section_diameter'], want
+        # The partner that must fail: the present valve is another one.
+        assert rows['seal.section_diameter'][0] != rows['seal.section_diameter'][1], screen
+        # The map has both designs; e shows the effects on another figure.
+        assert re.search('│.*○', screen) and re.search('│.*◆', screen), screen
+        terminal.see('Tolerances and Break-away force.*variance')
+        terminal.keys('e')
+        terminal.see('Tolerances and Return margin.*variance')
+
+        terminal.keys('a')
+        terminal.see('u undoes it')
+        terminal.see('of earlier values')
+        terminal.keys('1')
+        terminal.see(rf"Section diameter +{rows['seal.section_diameter'][1]} mm")
+        terminal.see(rf"Radial space +{rows['gland.radial_space'][1]} mm")
+        terminal.keys('u')
+        terminal.see(rf"Section diameter +{rows['seal.section_diameter'][0]} mm")
+        terminal.see(rf"Radial space +{rows['gland.radial_space'][0]} mm")
+        terminal.keys('2')
+        terminal.see('starts meet all limits', unlike='of earlier values')
+
+        # Another objective, and a search that is cancelled.
+        terminal.keys('Right')
+        terminal.see('of an earlier request', unlike='minimum break-away force')
+        terminal.keys('Enter', 'c')
+        terminal.see('Cancelled: ', unlike='Searching|Computing')
+        terminal.keys('q')
+        terminal.see('left 0')
+
+
+def test_calibrate():
+    """The page Calibrate fits what `calibrate` fits; without a loop it states why it cannot."""
+    with Terminal() as terminal:
+        terminal.start('quick-look.scene')
+        terminal.see(r'│ C +\d')
+        terminal.keys('3')
+        terminal.see('No loop was measured')
+        terminal.keys('Enter')
+        terminal.see('nothing measured')
+        terminal.keys('q')
+        terminal.see('left 0')
+        with open(f'{terminal.folder}/quick-look.scene', 'a', encoding='utf-8') as scene:
+            scene.write(f'\n[data]\nfile = {ASSETS}/series/bench.csv\n')
+        terminal.start('quick-look.scene')
+        terminal.see(r'│ C +\d')
+        terminal.keys('3')
+        terminal.see('✓ Load coefficient +0.19')
+        terminal.keys('a')
+        terminal.see('There are no estimates')
+        # Two of the parameters are not fitted.
+        terminal.keys('Down', 'Right', 'Down', 'Down', 'Right')
+        terminal.see('· Pressure diameter')
+        terminal.keys('Enter')
+        screen = terminal.see('All parameters are identifiable from these data')
+        want = answer_of(terminal, 'calibrate', 'bench.study', f"""[study]
+samples = 2000
+[vary]
+friction.load_coefficient = normal 0.19, 0.057 within 0 .. 0.418
+bore.land_edge = normal 3.3 mm, 0.3 mm within 2.1 mm .. 4.5 mm
+[data]
+file = {ASSETS}/series/bench.csv
+""")
+        for key, label, unit in (('friction.load_coefficient', 'Load coefficient', 1),
+                                 ('bore.land_edge', 'Land edge', 1e3)):
+            row = re.search(rf'✓ {label} +\S+( mm)? +(\S+) +(\S+) to (\S+) +yes', screen)
+            of = want['parameters'][key]
+            for text, value in zip(row.groups()[1:], [of['estimate'], *of['interval_95']]):
+                shown(text, unit * value, key)
+        assert re.search(r'· Static ratio +1\.1\s', screen), screen
+        shown(re.search(r'chi2 per degree of freedom (\S+)', screen).group(1), want['chi2_reduced'], 'chi2')
+        terminal.see(r'B +29\.2 N')  # the comparison is still there
+        terminal.keys('a')
+        terminal.see('The valve has the estimates')
+        terminal.see('of earlier values')
+        terminal.keys('u')
+        terminal.see('All parameters are identifiable', unlike='of earlier values')
+        terminal.keys('Enter', 'c')
+        terminal.see('(?i)cancelled|interrupted', unlike='Fitting')
+        terminal.keys('q')
+        terminal.see('left 0')
 
 
 def test_export():
@@ -210,6 +336,7 @@ def test_plain():
     with Terminal(80, 24, NO_COLOR='1', LC_ALL='C') as terminal:
         terminal.start('quick-look.scene')
         screen = terminal.see(r'B 28\.7')
+        assert re.search(r'q quit\s*$', screen), screen
         if not screen.isascii():
             raise AssertionError(f'not ASCII: {set(screen) - set(map(chr, range(128)))}\n{screen}')
         if re.search(r'\033\[(3[0-8]|4[0-8]|9\d)', terminal.tmux('capture-pane', '-p', '-e')):
@@ -217,8 +344,11 @@ def test_plain():
         for columns, rows in ((200, 60), (20, 5), (1, 1), (79, 11), (120, 36)):
             terminal.tmux('resize-window', '-x', str(columns), '-y', str(rows))
             if columns > 79:
-                screen = terminal.see('q quit')
-                same(len(screen.rstrip('\n').split('\n')), rows, 'lines')
+                terminal.see(rf'\A(?:[^\n]*\n){{{rows - 1}}}[^\n]*q quit\s*\Z')
+        # A search and its map in ASCII too.
+        terminal.keys('2', 'Enter')
+        screen = terminal.see('starts meet all limits')
+        assert screen.isascii() and re.search(r'lower', screen), screen
         terminal.keys('q')
         terminal.see('left 0')
 
@@ -495,7 +625,7 @@ def test_long_messages():
 
 
 def main():
-    tests = [test_session, test_changed_file, test_long_messages, test_export, test_plain, test_signals, test_plots, test_times,
+    tests = [test_session, test_design, test_calibrate, test_changed_file, test_long_messages, test_export, test_plain, test_signals, test_plots, test_times,
              test_random]
     arguments = ()
     if '--keys' in sys.argv:

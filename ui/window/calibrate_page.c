@@ -1,38 +1,23 @@
-// See the header. The picture is that of app/chart/calibration.h; priors are normal about the
-// document's own values, wide for what the thesis leaves open, and for others a study file is the
-// place.
+// See the header. The picture is that of app/chart/calibration.h, the request that of
+// app/session/calibrate_ask.h; other priors need a study file.
 #include "ui/window/calibrate_page.h"
 
 #include "app/base/translation.h"
 #include "app/export/calibrate_results.h"
+#include "app/session/calibrate_ask.h"
+#include "app/session/calibrate_job.h"
 #include "app/session/worker.h"
 #include "ui/views/draw_cache.h"
 #include "ui/views/later.h"
 #include "ui/views/style.h"
-#include "ui/window/calibrate_job.h"
 #include "ui/window/import_dialog.h"
 
 #include <glib/gi18n.h>
-#include <math.h>
-#include <string.h>
-
-// What may be ticked, with the prior's deviation: a share of the value, or an amount.
-static const struct {
-  SbParamId id;
-  double share, amount;
-  gboolean first; // ticked at the start
-} choices[] = {
-    {SB_P_FRICTION_LOAD_COEFFICIENT, 0.3, 0, TRUE}, {SB_P_FRICTION_STATIC_RATIO, 0, 0.1, TRUE},
-    {SB_P_BORE_LAND_EDGE, 0, 3e-4, TRUE},           {SB_P_STEM_PRESSURE_DIAMETER, 0, 5e-5, TRUE},
-    {SB_P_SURFACE_GT_PRODUCT, 0.2, 0, FALSE},       {SB_P_SEAL_MODULUS, 0.2, 0, FALSE},
-    {SB_P_GLAND_RADIAL_SPACE, 0, 1e-5, FALSE},
-};
-
-enum { CHOICES = G_N_ELEMENTS(choices) };
 
 typedef struct {
   SbSession *session; // owned reference
-  GtkWidget *box, *area, *tick[CHOICES], *file_label, *fit, *use, *progress, *stop, *message;
+  GtkWidget *box, *area, *tick[SB_CALIBRATE_CHOICES], *file_label, *fit, *use, *progress, *stop,
+      *message;
   GtkWidget *recognised;
   SbDrawCache *cache;
   SbCalibrateJob *job;
@@ -73,8 +58,7 @@ static char *describe(const Page *page) {
 }
 
 static const SbData *own_data(const Page *page) {
-  const SbDocument *document = sb_session_document(page->session);
-  return sb_document_data_count(document) > 0 ? sb_document_data(document, 0) : NULL;
+  return sb_calibrate_data(sb_session_document(page->session));
 }
 
 static void refresh(Page *page) {
@@ -83,7 +67,7 @@ static void refresh(Page *page) {
   const char *path = own != NULL ? own->path : NULL;
   g_autofree char *name = path != NULL ? g_path_get_basename(path) : NULL;
   gboolean ticked = FALSE;
-  for (int i = 0; i < CHOICES; i++) {
+  for (int i = 0; i < SB_CALIBRATE_CHOICES; i++) {
     ticked |= gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->tick[i]));
   }
   gtk_label_set_text(GTK_LABEL(page->file_label), name != NULL ? name : _("nothing measured"));
@@ -103,52 +87,14 @@ static void say(Page *page, const char *text) {
 
 // The fit ----------------------------------------------------------------------------------------
 
-static void append_priors(GString *text, const Page *page) {
-  g_string_append(text, "[vary]\n");
-  for (int i = 0; i < CHOICES; i++) {
-    if (!gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->tick[i]))) {
-      continue;
-    }
-    const SbParam *param = sb_param(choices[i].id);
-    const double value = sb_document_value(sb_session_document(page->session), choices[i].id);
-    const double wide = choices[i].amount > 0 ? choices[i].amount : choices[i].share * value;
-    g_autofree char *mean = sb_quantity_format(value, param->si, param->unit);
-    g_autofree char *deviation = sb_quantity_format(wide, param->si, param->unit);
-    g_autofree char *low =
-        sb_quantity_format(fmax(param->min, value - 4 * wide), param->si, param->unit);
-    g_autofree char *high =
-        sb_quantity_format(fmin(param->max, value + 4 * wide), param->si, param->unit);
-    g_string_append_printf(text, "%s = normal %s, %s within %s .. %s\n", param->key, mean,
-                           deviation, low, high);
-  }
-}
-
-static void append_data(GString *text, const Page *page) {
-  const SbData *own = own_data(page);
-  g_autofree char *whole = g_canonicalize_filename(own->path, NULL);
-  g_string_append_printf(text, "[data]\nfile = %s\n", whole);
-  for (int k = SB_DATA_FILE + 1; k < SB_DATA_KEY_COUNT; k++) {
-    if (own->text[k] != NULL) {
-      g_string_append_printf(text, "%s = %s\n", sb_data_key_name((SbDataKey)k), own->text[k]);
-    }
-  }
-}
-
-// The question as a study file about the present document; NULL with what is wrong said.
+// Returns the study file of what is ticked; NULL, with the reason shown.
 static SbStudyFile *make_study(Page *page) {
-  const SbDocument *document = sb_session_document(page->session);
-  g_autofree char *flat = sb_document_to_flat_text(document);
+  SbCalibrateAsk ask;
+  for (int i = 0; i < SB_CALIBRATE_CHOICES; i++) {
+    ask.fitted[i] = gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->tick[i]));
+  }
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  SbDocument *copy =
-      sb_document_parse(flat, strlen(flat), sb_document_title(document), NULL, issues);
-  g_autoptr(GString) text = g_string_new("[sealbench]\nformat = 1\nkind = study\nscene = document\n"
-                                         "[study]\nsamples = 2000\n");
-  append_priors(text, page);
-  append_data(text, page);
-  SbStudyFile *study = copy != NULL
-                           ? sb_study_file_parse(text->str, text->len, sb_document_title(document),
-                                                 NULL, NULL, copy, issues)
-                           : NULL;
+  SbStudyFile *study = sb_calibrate_ask_study(&ask, sb_session_document(page->session), issues);
   if (study == NULL) {
     g_autofree char *line = issues->len > 0 ? sb_issue_line(issues->pdata[0]) : g_strdup("");
     say(page, line);
@@ -219,14 +165,9 @@ static void on_recognised(GtkButton *button, Page *page) {
 }
 
 static void on_use(GtkButton *button, Page *page) {
-  for (size_t j = 0; j < page->found.parameters; j++) {
-    const SbCalibrated *one = &page->found.parameter[j];
-    // Without a posterior every parameter has the best value so far.
-    const gboolean known = page->found.samples == 0 || one->identifiable != SB_IDENTIFIABLE_NO;
-    if (known && one->curve < 0) {
-      sb_session_edit_value(page->session, one->id, one->estimate);
-    }
-  }
+  g_autofree SbOverride *values = g_new(SbOverride, page->found.parameters);
+  const size_t count = sb_calibration_estimates(values, &page->found);
+  sb_session_edit_values(page->session, values, count);
 }
 
 static void on_stop(GtkButton *button, Page *page) {
@@ -296,10 +237,13 @@ static void add_toolbar(Page *page) {
       button_of(bar, _("Recognised…"), _("How the data were read, with choices to change it"),
                 G_CALLBACK(on_recognised), page);
   GtkWidget *list = gtk_box_new(GTK_ORIENTATION_VERTICAL, 4);
-  for (int i = 0; i < CHOICES; i++) {
-    page->tick[i] = gtk_check_button_new_with_label(sb_param(choices[i].id)->key);
-    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->tick[i]), choices[i].first);
-    gtk_widget_set_tooltip_text(page->tick[i], sb_translation(sb_param(choices[i].id)->help));
+  SbCalibrateAsk ask;
+  sb_calibrate_ask_init(&ask);
+  for (int i = 0; i < SB_CALIBRATE_CHOICES; i++) {
+    const SbParam *param = sb_param(sb_calibrate_choice(i));
+    page->tick[i] = gtk_check_button_new_with_label(param->key);
+    gtk_toggle_button_set_active(GTK_TOGGLE_BUTTON(page->tick[i]), ask.fitted[i]);
+    gtk_widget_set_tooltip_text(page->tick[i], sb_translation(param->help));
     g_signal_connect_swapped(page->tick[i], "toggled", G_CALLBACK(refresh), page);
     gtk_box_pack_start(GTK_BOX(list), page->tick[i], FALSE, FALSE, 0);
   }

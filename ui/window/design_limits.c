@@ -5,6 +5,7 @@
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
+#include "app/export/design_text.h"
 #include "ui/views/style.h"
 
 #include <glib/gi18n.h>
@@ -29,13 +30,6 @@ typedef struct {
   size_t offers;
   gboolean refreshing;
 } Table;
-
-static char *name_of(int figure) {
-  const SbFigure *of = sb_figure(figure);
-  return *of->where != '\0'
-             ? g_strdup_printf("%s, %s", sb_translation(of->label), sb_translation(of->where))
-             : g_strdup(sb_translation(of->label));
-}
 
 // The number alone, in the unit of the row.
 static char *number_of(int figure, double value) {
@@ -163,7 +157,7 @@ static void add_row(Table *table, int figure) {
   const int at = (int)table->count + 1;
   *row = (Row){.figure = figure, .margin = NAN};
   table->count++;
-  g_autofree char *name = name_of(figure);
+  g_autofree char *name = sb_design_figure_name(figure);
   row->name = gtk_button_new_with_label(name);
   gtk_button_set_relief(GTK_BUTTON(row->name), GTK_RELIEF_NONE);
   GtkWidget *label = gtk_bin_get_child(GTK_BIN(row->name));
@@ -291,7 +285,7 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
                             : row->margin > BAR_SIGMAS ? g_strdup_printf("> %d", BAR_SIGMAS)
                                                        : g_strdup_printf("%.1f", row->margin);
   gtk_label_set_text(GTK_LABEL(row->sigmas), sigmas);
-  g_autofree char *name = name_of(limit->figure);
+  g_autofree char *name = sb_design_figure_name(limit->figure);
   g_autofree char *told = row->active ? g_strdup_printf(_("%s, active"), name) : g_strdup(name);
   gtk_button_set_label(GTK_BUTTON(row->name), told);
   GtkWidget *label = gtk_bin_get_child(GTK_BIN(row->name));
@@ -310,16 +304,6 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
   gtk_widget_queue_draw(row->bar);
 }
 
-static char *fails_text(const SbDesignPlace *at) {
-  if (at->samples == 0 || isnan(at->fails)) {
-    return g_strdup("–");
-  }
-  const double count = at->fails * (double)at->samples;
-  return count == 0          ? g_strdup_printf(_("none of %zu"), at->samples)
-         : at->fails > 0.995 ? g_strdup(_("all"))
-                             : g_strdup_printf("%.1f %%", 100 * at->fails);
-}
-
 void sb_design_limits_show(GtkWidget *limits, const SbDesignAsk *ask, const SbDesignAnswer *answer,
                            int chosen) {
   Table *table = g_object_get_data(G_OBJECT(limits), "table");
@@ -331,7 +315,8 @@ void sb_design_limits_show(GtkWidget *limits, const SbDesignAsk *ask, const SbDe
     show_row(&table->row[i], &ask->limits.item[i], i, answer, table->row[i].figure == chosen);
   }
   for (int place = 0; place < SB_DESIGN_PLACES; place++) {
-    g_autofree char *text = answer != NULL ? fails_text(&answer->place[place]) : g_strdup("–");
+    g_autofree char *text =
+        answer != NULL ? sb_design_fails_text(&answer->place[place]) : g_strdup("–");
     gtk_label_set_text(GTK_LABEL(table->fails[place]), text);
   }
   g_autofree char *more =
@@ -362,7 +347,7 @@ GtkWidget *sb_design_limits_new(const SbDesignLimitsHooks *hooks) {
   gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(table->add), _("Add a limit…"));
   table->offers = sb_design_ask_figures(table->offered, FIGURES_MAX);
   for (size_t i = 0; i < table->offers; i++) {
-    g_autofree char *name = name_of(table->offered[i]);
+    g_autofree char *name = sb_design_figure_name(table->offered[i]);
     gtk_combo_box_text_append_text(GTK_COMBO_BOX_TEXT(table->add), name);
   }
   gtk_combo_box_set_active(GTK_COMBO_BOX(table->add), 0);

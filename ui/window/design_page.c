@@ -2,9 +2,8 @@
 // design_job.h, pictures are those of app/chart/design.h.
 #include "ui/window/design_page.h"
 
-#include "app/base/device.h"
 #include "app/base/translation.h"
-#include "app/export/design_results.h"
+#include "app/export/design_text.h"
 #include "app/session/kept_store.h"
 #include "app/session/worker.h"
 #include "ui/views/style.h"
@@ -133,13 +132,11 @@ static void end_design_job(SbDesignPage *page) {
 
 static void on_design_poll(gpointer data) {
   SbDesignPage *page = data;
-  static const char *const parts[] = {N_("Computing the map"), N_("Searching for the best"),
-                                      N_("Tolerances"), N_("Drawing valves")};
   gtk_progress_bar_set_fraction(GTK_PROGRESS_BAR(page->progress), sb_worker_progress(page->job));
   const SbDesignPart part = sb_design_job_part(page->job);
   sb_design_page_say(page, gtk_toggle_button_get_active(GTK_TOGGLE_BUTTON(page->pause))
                                ? _("Paused")
-                               : _(parts[part]));
+                               : sb_design_part_text(part));
   // What is drawn anew for nothing keeps the loop from its other work.
   const size_t done = sb_design_job_lock(page->job)->map.done;
   sb_design_job_unlock(page->job);
@@ -150,39 +147,12 @@ static void on_design_poll(gpointer data) {
   }
 }
 
-// What a search found, in a sentence.
-static char *found_text(const SbDesignAnswer *answer) {
-  const SbDesign *found = &answer->found;
-  if (!answer->searched) {
-    return g_strdup("");
-  }
-  if (!found->found) {
-    return sb_design_lacking_text(answer->study, found);
-  }
-  return !found->feasible
-             ? g_strdup(
-                   _("No start meets all limits: the valve with the smallest violation is shown."))
-             : g_strdup_printf(_("%zu of %zu starts meet all limits, %zu evaluations."),
-                               found->starts_feasible, found->starts, found->evaluations);
-}
-
 // Shows what marks the best design below the sentence: bounds that it is on, and its warnings of
 // validity. NULL: nothing.
 static void show_marks(SbDesignPage *page, const SbDesignAnswer *answer) {
-  g_autoptr(GString) text = g_string_new(NULL);
-  if (answer != NULL && answer->searched && answer->found.found) {
-    g_autofree char *bounds = sb_design_bounds(&answer->found, answer->study);
-    g_autofree char *codes = sb_warning_codes(answer->found.warnings, ", ");
-    if (bounds != NULL) {
-      g_string_append_printf(text, _("On a bound of the search: %s."), bounds);
-    }
-    if (codes != NULL) {
-      g_string_append(text, text->len > 0 ? "\n" : "");
-      g_string_append_printf(text, _("Warnings of validity: %s."), codes);
-    }
-  }
-  gtk_label_set_text(GTK_LABEL(page->marks), text->str);
-  gtk_widget_set_visible(page->marks, text->len > 0);
+  g_autofree char *text = answer != NULL ? sb_design_marks_text(answer) : NULL;
+  gtk_label_set_text(GTK_LABEL(page->marks), text != NULL ? text : "");
+  gtk_widget_set_visible(page->marks, text != NULL);
 }
 
 static void on_design_done(void *data) {
@@ -192,11 +162,7 @@ static void on_design_done(void *data) {
   end_design_job(page);
   sb_design_answer_free(page->answer);
   page->answer = answer;
-  g_autofree char *text =
-      why == NULL    ? found_text(answer)
-      : *why == '\0' ? g_strdup_printf(_("Cancelled: %zu of %zu points of the map are there."),
-                                       answer->map.done, answer->map.n * answer->map.n)
-                     : g_strdup_printf(_("Not finished: %s."), why);
+  g_autofree char *text = sb_design_end_text(answer, why);
   sb_design_page_say(page, text);
   show_marks(page, answer);
   sb_design_page_refresh(page);
@@ -256,11 +222,6 @@ static void follow(SbDesignPage *page) {
     page->kind = kind;
     sb_design_ask_init(&page->ask, document);
     page->chosen = sb_figure_find("cycle.force_return_margin_N");
-    const SbModel *model = sb_session_model(page->session);
-    if (!sb_device_of_kind(kind)->gland ||
-        (model != NULL && sb_model_number(model, SB_P_SEAL_PROFILE) != 0)) {
-      page->ask.closed = FALSE; // no closed form knows such a section
-    }
     end_design_job(page);
     g_clear_pointer(&page->answer, sb_design_answer_free);
     page->look.picked = FALSE;

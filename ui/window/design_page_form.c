@@ -7,7 +7,6 @@
 #include "ui/window/design_ranges.h"
 
 #include <glib/gi18n.h>
-#include <math.h>
 
 void sb_design_page_show_form(SbDesignPage *page) {
   page->refreshing = TRUE;
@@ -49,8 +48,7 @@ static void on_axis(GtkComboBox *combo, SbDesignPage *page) {
 static void on_goal(GtkComboBox *combo, SbDesignPage *page) {
   const int at = gtk_combo_box_get_active(combo);
   if (!page->refreshing && at >= 0) {
-    page->ask.goal = page->goals[at];
-    page->ask.maximise = sb_figure(page->ask.goal)->better == SB_BETTER_MORE;
+    sb_design_ask_set_goal(&page->ask, page->goals[at]);
     sb_design_page_asked(page);
   }
 }
@@ -90,24 +88,12 @@ static void on_lines(GtkToggleButton *button, SbDesignPage *page) {
   sb_design_page_redraw(page);
 }
 
-// The best design's values go into the document, to five digits.
 static void on_use_best(GtkButton *button, SbDesignPage *page) {
-  SbOverride override[SB_VARY_MAX];
-  size_t count = 0;
+  SbOverride values[SB_VARY_MAX];
   const SbDesignAnswer *answer = sb_design_page_answer(page);
-  for (guint k = 0; answer != NULL && k < answer->study->vary->len; k++) {
-    const SbVary *vary = &g_array_index(answer->study->vary, SbVary, k);
-    const SbDistribution *of = &vary->distribution;
-    const SbParam *param = sb_param(vary->id);
-    const double wide = sb_quantity_to_shown(of->b, param->si, param->unit) -
-                        sb_quantity_to_shown(of->a, param->si, param->unit);
-    const double value = answer->place[SB_DESIGN_BEST].value[k];
-    override[count++] =
-        (SbOverride){vary->id, sb_quantity_step(value, param->si, param->unit,
-                                                (int)floor(log10(fabs(wide) / 1000)), 0)};
-  }
+  const size_t count = answer != NULL ? sb_design_best_values(values, answer) : 0;
   sb_design_page_release(page);
-  sb_session_edit_values(page->session, override, count);
+  sb_session_edit_values(page->session, values, count);
 }
 
 void sb_design_page_add_axes(SbDesignPage *page, GtkBox *bar) {
@@ -144,21 +130,11 @@ void sb_design_page_add_question(SbDesignPage *page, GtkBox *to) {
   gtk_box_pack_start(bar, sb_style_label(_("Goal"), "sb-heading", 0), FALSE, FALSE, 0);
   const char *label[SB_DESIGN_PAGE_GOALS];
   g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
-  int figure[SB_DESIGN_PAGE_GOALS];
-  const size_t count = sb_design_ask_figures(figure, SB_DESIGN_PAGE_GOALS);
-  for (size_t i = 0; i < count; i++) {
-    const SbFigure *of = sb_figure(figure[i]);
-    if (of->better != SB_BETTER_NONE) {
-      g_autofree char *inside = sb_translation_inside(of->label);
-      g_autofree char *named = *of->where != '\0'
-                                   ? g_strdup_printf("%s, %s", inside, sb_translation(of->where))
-                                   : g_strdup(inside);
-      char *name =
-          g_strdup_printf(of->better == SB_BETTER_MORE ? _("maximum %s") : _("minimum %s"), named);
-      g_ptr_array_add(names, name);
-      label[page->goal_count] = name;
-      page->goals[page->goal_count++] = figure[i];
-    }
+  page->goal_count = sb_design_ask_goals(page->goals, SB_DESIGN_PAGE_GOALS);
+  for (size_t i = 0; i < page->goal_count; i++) {
+    char *name = sb_design_goal_text(page->goals[i]);
+    g_ptr_array_add(names, name);
+    label[i] = name;
   }
   page->goal = sb_toolbar_combo(bar, label, (int)page->goal_count, _("Goal"),
                                 _("Figure that the search minimises or maximises"));

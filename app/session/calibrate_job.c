@@ -1,5 +1,5 @@
 // The thread of a calibration, which owns study and result until it is done.
-#include "ui/window/calibrate_job.h"
+#include "app/session/calibrate_job.h"
 
 #include "app/session/worker.h"
 
@@ -13,7 +13,7 @@ struct SbCalibrateJob {
   SbReport report;
 };
 
-static void work(void *owner) {
+static void work_calibrate_job(void *owner) {
   SbCalibrateJob *job = owner;
   const SbCalibrateHooks hooks = {.jobs = 1,
                                   .cancelled = sb_worker_cancelled,
@@ -27,7 +27,7 @@ SbCalibrateJob *sb_calibrate_job_start(SbStudyFile *study, void (*done)(void *da
   SbCalibrateJob *job = g_new0(SbCalibrateJob, 1);
   job->study = study;
   job->issues = sb_issues_new();
-  sb_worker_start(&job->worker, "calibrate", work, job, done, data);
+  sb_worker_start(&job->worker, "calibrate", work_calibrate_job, job, done, data);
   return job;
 }
 
