@@ -293,41 +293,13 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 
 // ---- Blocks ----
 
-// Whether a line directly after a row names each column, with different texts ("OVER" in each names
-// none); if blanks separate the cells, with a unit, because a remark has as many words.
-static bool names_each(const SbTextTable *table, const GString *line) {
-  const SbTextTableShape *rows = &table->file->shape;
-  g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
-  int named = 0;
-  for (char **cell = cells; *cell != NULL; cell++) {
-    named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
-  }
-  return named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
-         (table->dialect.separator != ' ' || strpbrk(line->str, "[(") != NULL);
+bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
+  const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
+  return (shape.numeric | shape.clocks) != 0 &&
+         same_shape(&shape, &table->file->shape, &table->dialect);
 }
 
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
-                              const SbTextTable *table) {
-  enum { NAMES_BYTES = 4096 };
-  bool names = false;
-  if (!row) {
-    const SbTextTableShape here = sb_text_table_shape(line, &table->dialect);
-    const guint64 values = table->file->shape.numeric | table->file->shape.clocks;
-    const bool matrix = table->dialect.matrix;
-    const int least = matrix ? 1 : MAX(2, __builtin_popcountll(values) - 1);
-    const bool numbers = !matrix && (here.numeric | here.clocks) != 0;
-    names = !numbers && __builtin_popcountll(here.texts) >= least &&
-            (!block->after_row || (!matrix && names_each(table, line)));
-  }
-  if (names && !block->after_names) {
-    g_free(block->names);
-    block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
-  }
-  block->after_names = names;
-  block->after_row = row;
-}
-
-// Finds the line where the longest block of rows begins, and the names above the block.
+// Finds the line where the longest block of rows begins, and the names and units above the block.
 static void find_block(SbTextTable *table, const Sample *sample) {
   // Names -> index of the first row, number of rows.
   g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
@@ -336,9 +308,7 @@ static void find_block(SbTextTable *table, const Sample *sample) {
   table->header_lines = sample->head;
   for (size_t i = 0; i < sample->head; i++) {
     const GString *line = sample->line->pdata[i];
-    const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
-    const bool row = (shape.numeric | shape.clocks) != 0 &&
-                     same_shape(&shape, &table->file->shape, &table->dialect);
+    const bool row = sb_text_table_is_row(table, line);
     sb_text_table_block_next(&block, row, line, table);
     if (!row) {
       continue;

@@ -201,6 +201,59 @@ static void take_header_line(SbTextTable *table, char *const *cells, bool units_
   }
 }
 
+// Whether a line directly after a row names each column, with different texts ("OVER" in each names
+// none); of a comment, or if blanks separate the cells, with a unit: a remark has as many words.
+static bool names_each(const SbTextTable *table, const GString *line, char *const *cells) {
+  const SbTextTableShape *rows = &table->file->shape;
+  int named = 0;
+  for (char *const *cell = cells; *cell != NULL; cell++) {
+    named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
+  }
+  const bool words = table->dialect.separator == ' ' || strspn(line->str, "#%!") > 0;
+  return named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
+         (!words || strpbrk(line->str, "[(") != NULL);
+}
+
+// Whether a line names columns or states their units: all its cells are texts.
+static bool heads(bool *units, const SbTextTable *table, char *const *cells) {
+  double value;
+  SbTextTableClock clock;
+  *units = are_units(cells) && cells[1] != NULL;
+  bool texts = *units || names_columns(table, cells);
+  for (; *cells != NULL && texts; cells++) {
+    const SbTextTableCell cell = {*cells, strlen(*cells)};
+    texts = !sb_text_table_number(&value, &cell, &table->dialect, NULL) &&
+            !sb_text_table_clock(&clock, &cell);
+  }
+  return texts;
+}
+
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
+                              const SbTextTable *table) {
+  const bool after_row = block->after_row, matrix = table->dialect.matrix;
+  block->after_row = row;
+  block->headed = !row && block->headed;
+  if (row || line->len == 0 || (matrix && strspn(line->str, "#%!") > 0)) {
+    return;
+  }
+  bool units = false;
+  g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
+  if ((!matrix && !heads(&units, table, cells)) ||
+      (after_row && (matrix || !names_each(table, line, cells)))) {
+    return;
+  }
+  // Names and units, with a newline between. Without a line of units, the same names have those
+  // that they had.
+  const char *old = block->names != NULL ? block->names : "\n";
+  g_autofree char *text = g_strjoinv("\t", cells);
+  char *both = units ? g_strdup_printf("%.*s\n%s", (int)strcspn(old, "\n"), old, text)
+                     : g_strconcat(text, "\n", NULL);
+  const bool other = units || !g_str_has_prefix(old, both);
+  g_free(other ? block->names : both);
+  block->names = other ? both : block->names;
+  block->headed = true;
+}
+
 void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count) {
   enum { LOOKED = 12 };
   bool named = false, united = false, stopped = false;

@@ -67,6 +67,16 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
+// Counts a line that is left out; the first one that is no damaged row is stored.
+static void leave_line(SbTextTableRows *out, int number, const GString *text, bool damaged) {
+  *(damaged ? &out->damaged : &out->skipped) += 1;
+  if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
+    g_free(out->left_text);
+    out->left_line = number;
+    out->left_text = sb_printable(text->str, text->len);
+  }
+}
+
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues) {
   *out = (SbTextTableRows){0};
@@ -78,24 +88,29 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   const GString *text;
   // A row has two bytes at least. Memory that is not written to does not count.
   const size_t room = MIN(lines->length / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
-  size_t begun = 0; // blocks behind blank lines
+  size_t begun = 0; // blocks behind blank lines or names
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
   }
-  bool blank = false, other = false;
+  bool blank = false, cut = false, other = false;
   sb_text_table_seek(lines, 0);
   while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
     Line line = {0};
     if ((size_t)lines->number <= table->header_lines) {
+      if (sb_text_table_is_row(table, text)) {
+        leave_line(out, lines->number, text, false);
+      }
       continue;
-    } else if (text->len > 0 && strspn(text->str, "#%!") == 0) {
+    }
+    if (text->len > 0 && strspn(text->str, "#%!") == 0) {
       wrong = read_line(&line, row, days, table, column, count, text);
     }
-    begun += blank && line.cells > 0;
     other = line.cells != table->columns && (other || (blank && line.cells > 0));
-    blank = line.cells == 0;
     const bool like = line.good && line.any && !other;
+    blank = line.cells == 0;
+    begun += like && (cut || block.headed);
+    cut = !like && (cut || blank);
     sb_text_table_block_next(&block, like, text, table);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
       wrong = wrong == NULL && out->rows == room ? "has too many rows" : wrong;
@@ -106,12 +121,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     } else if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
       const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
-      *(damaged ? &out->damaged : &out->skipped) += 1;
-      if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
-        g_free(out->left_text);
-        out->left_line = lines->number;
-        out->left_text = sb_printable(text->str, text->len);
-      }
+      leave_line(out, lines->number, text, damaged);
     }
   }
   wrong = wrong != NULL ? wrong : lines->wrong;

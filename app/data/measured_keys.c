@@ -100,7 +100,7 @@ char *sb_measured_text(const SbMeasured *m) {
                            m->dropped);
   }
   if (m->lines.skipped > 0) {
-    g_string_append_printf(out, ", %zu lines between them are not rows (line %d: \"%s\")",
+    g_string_append_printf(out, ", %zu other lines are left out (line %d: \"%s\")",
                            m->lines.skipped, m->lines.left_line, m->lines.left_text);
   }
   char digits[3][SB_NUMBER_SIZE];

@@ -277,6 +277,15 @@ static void test_habits(void) {
        "OVER,OVER,OVER\n,,\nNo,Peak (N),Ext (mm)\n1,900.0,800.0\n", '.', 1, 1},
       {"No. Peak (N) Ext (mm)\n1 35.1 16.2\nTime (s) Ext (mm) Load (N)\n", "@t @x @f\n",
        "end of test\n", '.', 1, 1},
+      // Blocks with the same names and other units; names again without units; of a comment.
+      {"Time,Ext,Load\n(s),(mm),(kN)\n0,0,900\n1,1,900\n\nTime,Ext,Load\n(s),(mm),(N)\n0,0,\n"
+       "Time,Ext,Load\n",
+       "@t,@x,@f\n", "Time,Ext,Load\n(s),(um),(N)\n1,900,1\n2,900,1\n", '.', 1, 1},
+      {"# t [s]; s [mm]; F [N]\n", "@t;@x;@f\n", "# t [s]; s [mm]; F [kN]\n1;900;1\n2;800;1\n", '.',
+       1, 1},
+      {"Operator;Miller\nZeit;Weg;Kraft\ns;mm;N\n", "@t;@x;@f\n",
+       "s;mm;kN\n1;900;1\ns;mm;N\n;;\nOperator;Miller\nZeit;Weg;Kraft\ns;mm;kN\n1;900;1\n", ',', 1,
+       1},
       // No value in the last column of the first row.
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,OVER\n", "@t,@x,@f\n", "", '.', 1, 1},
