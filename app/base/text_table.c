@@ -207,6 +207,11 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
       (dialect->matrix && (fit.shape.saw & SB_TEXT_TABLE_SAW_PADDED) != 0)) {
     fit.score *= 0.5;
   }
+  // In a matrix, a mark before three digits is a decimal mark, unless there is another one, or the
+  // mark is between commas and in quotes.
+  const bool quoted = sample->quoted && dialect->separator == ',';
+  const unsigned decimals = fit.shape.saw & (SB_TEXT_TABLE_SAW_MARK | SB_TEXT_TABLE_SAW_DECIMAL);
+  fit.score *= !dialect->matrix || quoted || decimals != SB_TEXT_TABLE_SAW_MARK;
   return fit;
 }
 
@@ -250,13 +255,14 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
   Fit rival = {0};
   for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
     for (size_t m = 0; m < G_N_ELEMENTS(marks); m++) {
-      // In quotes, the separator can be a mark between thousands. Instruments write none.
-      const SbTextTableDialect dialect = {.encoding = table->dialect.encoding,
-                                          .separator = separators[s],
-                                          .decimal = marks[m],
-                                          .dates = wish->dates,
-                                          .thousands = wish->matrix ? '\0' : marks[1 - m],
-                                          .matrix = wish->matrix};
+      // In quotes, the separator can be a mark between thousands.
+      const SbTextTableDialect dialect = {
+          .encoding = table->dialect.encoding,
+          .separator = separators[s],
+          .decimal = marks[m],
+          .dates = wish->dates,
+          .thousands = separators[s] == SB_TEXT_TABLE_PAIRS ? '\0' : marks[1 - m],
+          .matrix = wish->matrix};
       if ((wish->separator != '\0' && wish->separator != separators[s]) ||
           (wish->decimal != '\0' && wish->decimal != marks[m]) ||
           (separators[s] == marks[m] && !sample->quoted) ||
@@ -301,7 +307,7 @@ bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
 
 // Finds the line where the longest block of rows begins, and the names and units above the block.
 static void find_block(SbTextTable *table, const Sample *sample) {
-  // Names -> index of the first row, number of rows.
+  // Names, of a matrix with the number of cells -> index of the first row, number of rows.
   g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
   size_t most = 0;
   SbTextTableBlock block = {0};
@@ -313,12 +319,13 @@ static void find_block(SbTextTable *table, const Sample *sample) {
     if (!row) {
       continue;
     }
-    const char *names = block.names != NULL ? block.names : "";
+    const size_t span = table->dialect.matrix ? sb_text_table_shape(line, &table->dialect).span : 0;
+    g_autofree char *names = g_strdup_printf("%zu%s", span, block.names != NULL ? block.names : "");
     size_t *found = g_hash_table_lookup(blocks, names);
     if (found == NULL) {
       found = g_new0(size_t, 2);
       found[0] = i;
-      g_hash_table_insert(blocks, g_strdup(names), found);
+      g_hash_table_insert(blocks, g_steal_pointer(&names), found);
     }
     if (++found[1] > most) {
       most = found[1];

@@ -113,11 +113,13 @@ typedef struct {
   GArray *value;        // of double; NaN: void. Freed by g_array_unref()
   size_t rows, columns; // lines; numbers of the first one
   int ragged;           // number of the first line with another count of numbers; 0: none
+  size_t other;         // rows of other blocks, not read
+  int other_line;       // number of the first one
 } SbTextTableMatrix;
 
 // Reads all numbers of a table that was opened with `matrix`, at most `most` of a line and 3 `most`
-// altogether. Returns false with one issue, *out then empty, if there are more, or if a line behind
-// the first row has a cell that is not a number.
+// altogether. Returns false with one issue, *out then empty, if there are more, if a line directly
+// behind a row has a cell that is not a number, or if other blocks have half as many rows.
 bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
                                GPtrArray *issues);
 

@@ -202,15 +202,17 @@ static void take_header_line(SbTextTable *table, char *const *cells, bool units_
 }
 
 // Whether a line directly after a row names each column, with different texts ("OVER" in each names
-// none); of a comment, or if blanks separate the cells, with a unit: a remark has as many words.
+// none); of a comment or matrix, or if blanks separate the cells, with a unit: a remark has as many
+// words.
 static bool names_each(const SbTextTable *table, const GString *line, char *const *cells) {
   const SbTextTableShape *rows = &table->file->shape;
   int named = 0;
   for (char *const *cell = cells; *cell != NULL; cell++) {
     named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
   }
-  const bool words = table->dialect.separator == ' ' || strspn(line->str, "#%!") > 0;
-  return named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
+  const bool words =
+      table->dialect.separator == ' ' || table->dialect.matrix || strspn(line->str, "#%!") > 0;
+  return named >= MAX(__builtin_popcountll(rows->numeric | rows->clocks | rows->texts), 2) &&
          (!words || strpbrk(line->str, "[(") != NULL);
 }
 
@@ -238,8 +240,10 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
   }
   bool units = false;
   g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
-  if ((!matrix && !heads(&units, table, cells)) ||
-      (after_row && (matrix || !names_each(table, line, cells)))) {
+  const bool headed = heads(&units, table, cells);
+  if (matrix && !after_row) {
+    units = false;
+  } else if (!headed || (after_row && !names_each(table, line, cells))) {
     return;
   }
   // Names and units, with a newline between. Without a line of units, the same names have those

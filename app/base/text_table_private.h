@@ -51,6 +51,7 @@ enum {
   SB_TEXT_TABLE_SAW_GROUPS = 2, // a mark between thousands
   SB_TEXT_TABLE_SAW_LONG = 4,   // four digits or more and no mark between them
   SB_TEXT_TABLE_SAW_BLANK = 8,  // a blank between thousands
+  SB_TEXT_TABLE_SAW_MARK = 32,  // a point or comma between thousands
   SB_TEXT_TABLE_SAW_PADDED = 16 // a zero before other digits, or -0: no program writes integers so
 };
 

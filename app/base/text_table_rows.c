@@ -164,29 +164,45 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
   SbTextTableLines *lines = &table->file->lines;
+  SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const GString *text;
   const char *wrong = NULL;
   bool good = true;
   sb_text_table_seek(lines, 0);
   while (good && wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
-    if ((size_t)lines->number <= table->header_lines || text->len == 0 ||
-        strspn(text->str, "#%!") > 0) {
-      continue;
-    }
+    const bool above = (size_t)lines->number <= table->header_lines, headed = block.headed;
     const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;
-    const gssize count = append_cells(out->value, text, columns, most, &table->dialect);
-    if (count > 0) {
+    const guint begin = out->value->len;
+    const bool data = text->len > 0 && strspn(text->str, "#%!") == 0;
+    const gssize count = data ? append_cells(out->value, text, columns, most, &table->dialect) : 0;
+    if (!above && (count != 0 || text->len == 0)) {
+      sb_text_table_block_next(&block, count > 0, text, table);
+    }
+    const bool other = above || g_strcmp0(block.names, table->file->names) != 0;
+    if (count > 0 && other) {
+      out->other_line = out->other == 0 ? lines->number : out->other_line;
+      out->other++;
+    } else if (count > 0) {
       out->columns = out->rows == 0 ? (size_t)count : out->columns;
       out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines->number : out->ragged;
       out->rows++;
     }
-    if (count < 0) {
+    g_array_set_size(out->value, other ? begin : out->value->len);
+    if (!above && ((count < 0 && !block.headed) || (count > 0 && headed && !other))) {
       g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
-      good = sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL,
-                           "numbers expected, not \"%s\"", shown);
-    } else if ((size_t)count > most || out->value->len > 3 * most) {
+      good = sb_issues_add(
+          issues, table->file->shown, lines->number, NULL, NULL,
+          count < 0 ? "numbers expected, not \"%s\"" : "begins the table again: \"%s\"", shown);
+    } else if ((count > 0 && (size_t)count > most) || out->value->len > 3 * most) {
       wrong = "has too many numbers";
     }
+  }
+  g_free(block.names);
+  if (good && wrong == NULL && 2 * out->other >= out->rows) {
+    good = sb_issues_add(
+        issues, table->file->shown, out->other_line, NULL, NULL,
+        "%zu rows of numbers are another table than the %zu of the longest: remove one", out->other,
+        out->rows);
   }
   wrong = wrong != NULL ? wrong : lines->wrong;
   if (good && wrong != NULL) {
