@@ -68,7 +68,8 @@ typedef struct {
 typedef struct {
   GPtrArray *entries;       // of SbScanEntry
   const SbTextTable *table; // its columns and their units
-  SbTextTableMatrix matrix; // its numbers
+  SbTextTableMatrix matrix; // its numbers, of three named columns at most only these
+  gsize use[3];             // the table's column of each of the matrix' first ones
 } SbScanText;
 
 // Writes points with columns x, y, z to the grid that they form, for which sb_scan_is_grid()

@@ -4,6 +4,7 @@
 #include "app/base/number.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { ENTRIES_MAX = 1000 };
 
@@ -74,6 +75,84 @@ static const SbScanEntry *find_entry(const SbScanText *text, const char *key, bo
     found = fits && bare && found == &none ? entry : found;
   }
   return found;
+}
+
+// Keeps `count` columns of the matrix.
+static void keep_columns(SbScanText *text, const gsize *use, gsize count) {
+  SbTextTableMatrix *matrix = &text->matrix;
+  double *value = (double *)(void *)matrix->value->data;
+  for (gsize row = 0; row < matrix->rows; row++) {
+    double kept[3];
+    for (gsize k = 0; k < count; k++) {
+      kept[k] = value[row * matrix->columns + use[k]];
+    }
+    memcpy(value + row * count, kept, count * sizeof *kept);
+  }
+  memmove(text->use, use, count * sizeof *use);
+  matrix->columns = count;
+  g_array_set_size(matrix->value, (guint)(matrix->rows * count));
+}
+
+// Finds the columns x, y and z by their names and keeps them alone. Of two or three columns, those
+// with other names are the remaining ones in this order. False with an error if two columns may be
+// one of them, or if the places form no grid.
+static bool find_columns(SbScan *out, SbScanText *text, GError **error) {
+  static const char *const keys[] = {KEY_X, KEY_Y, KEY_Z};
+  const gsize columns = text->table->columns, none = SB_TEXT_TABLE_COLUMNS_MAX;
+  gsize use[3] = {none, none, none}, twice[3] = {none, none, none}, other[3], others = 0;
+  for (gsize i = 0; i < columns; i++) {
+    int axis = 0;
+    while (axis < 3 &&
+           !g_regex_match_simple(keys[axis], text->table->column[i].name, G_REGEX_CASELESS, 0)) {
+      axis++;
+    }
+    if (axis < 3) {
+      twice[axis] = use[axis];
+      use[axis] = i;
+    } else if (others < 3) {
+      other[others++] = i;
+    }
+  }
+  if (columns == 2 && use[1] < none && MIN(use[0], use[2]) < none) { // y over x, or z along y
+    use[use[2] < none ? 0 : 2] = use[1];
+    use[1] = none;
+  }
+  const bool few = columns <= 3, lone = columns == 2 && use[1] < none;
+  const bool between = use[1] == none && use[2] < none;
+  if (columns != text->matrix.columns || columns < 2 || lone ||
+      (few ? others == columns : MAX(use[0], use[2]) == none)) {
+    return true;
+  }
+  for (int axis = 0, next = 0; axis < 3; axis++) {
+    if (twice[axis] < none) {
+      return sb_app_error_input(error, "columns %zu and %zu may both be %c: remove one",
+                                twice[axis] + 1, use[axis] + 1, "xyz"[axis]);
+    }
+    if (few && use[axis] == none && (axis != 1 || columns == 3)) {
+      use[axis] = other[next++];
+    }
+  }
+  const gsize profile[2] = {use[0], use[2]}, both[2] = {0, 2};
+  keep_columns(text, use[1] < none ? use : profile, use[1] < none ? 3 : 2);
+  if (text->matrix.columns == 3 && !sb_scan_is_grid(text)) {
+    if (!between) {
+      return sb_app_error_input(
+          error,
+          "its points form no grid of equal steps in x and y, and no two columns are x and z");
+    }
+    keep_columns(text, both, 2);
+    memcpy(text->use, profile, sizeof profile);
+  }
+  g_autoptr(GString) list = g_string_new(NULL);
+  bool usual = columns == text->matrix.columns;
+  for (gsize k = 0; k < text->matrix.columns; k++) {
+    g_string_append_printf(list, "%s%zu", k > 0 ? ", " : "", text->use[k] + 1);
+    usual = usual && text->use[k] == k;
+  }
+  if (!usual) {
+    sb_note_add(out->notes, "columns %s are used, by their names", list->str);
+  }
+  return true;
 }
 
 // What the header says of a matrix; NaN or 0 where it does not.
@@ -169,9 +248,10 @@ static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbS
                        bool needs_lateral, GError **error) {
   const gsize columns = text->matrix.columns;
   const SbTextTableColumn *column = text->table->column;
-  const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[0].unit) : 0;
-  const double y = columns == 3 ? sb_scan_length(column[1].unit) : 0;
-  const double z = columns <= 3 ? sb_scan_length(column[columns - 1].unit) : 0;
+  const gsize *use = text->use;
+  const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[use[0]].unit) : 0;
+  const double y = columns == 3 ? sb_scan_length(column[use[1]].unit) : 0;
+  const double z = columns <= 3 ? sb_scan_length(column[use[columns - 1]].unit) : 0;
   if (y > 0 && y != x) {
     return sb_app_error_input(error, "x and y have different units");
   }
@@ -209,12 +289,16 @@ static bool take_matrix(SbScan *out, const SbScanText *text, const Header *h, GE
   return true;
 }
 
-static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
+static bool read_entry_text(SbScan *out, SbScanText *text, const SbScanChoices *choices,
                             GError **error) {
   Header h = header_of(text);
   const SbScanEntry *title = find_entry(text, KEY_TITLE, false);
+  const bool sized =
+      isfinite(h.columns) || (text->matrix.columns > 2 && isfinite(h.step[0] + h.step[1]));
+  if (!sized && text->matrix.ragged == 0 && !find_columns(out, text, error)) {
+    return false;
+  }
   const gsize columns = text->matrix.columns;
-  const bool sized = isfinite(h.columns) || (columns > 2 && isfinite(h.step[0] + h.step[1]));
   const bool points = !sized && columns == 3 && text->matrix.ragged == 0 && sb_scan_is_grid(text);
   const bool matrix = sized || (columns > 2 && !points), spaced = choices->spacing > 0;
   out->title = *title->key != '\0' ? g_strdup(title->value) : NULL;
@@ -271,7 +355,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
   g_autoptr(GPtrArray) entries = g_ptr_array_new_with_free_func(entry_free);
   g_autoptr(SbTextTable) table =
       sb_text_table_parse(bytes.at, (gsize)(bytes.end - bytes.at), &wish, "", issues);
-  SbScanText text = {.entries = entries, .table = table};
+  SbScanText text = {.entries = entries, .table = table, .use = {0, 1, 2}};
   const bool read = table != NULL &&
                     sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
   if (!read) {
@@ -284,6 +368,10 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
   }
   for (int i = 0; table->header[i] != NULL && entries->len < ENTRIES_MAX; i++) {
     take_entry(entries, table->header[i], i + 1, &table->dialect);
+  }
+  if (text.matrix.other > 0) {
+    sb_note_add(out->notes, "%zu rows of numbers are not read, as they are another table (line %d)",
+                text.matrix.other, text.matrix.other_line);
   }
   const bool good = read_entry_text(out, &text, choices, error);
   g_array_unref(text.matrix.value);
