@@ -67,14 +67,28 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
                                            : SB_TEXT_TABLE_LATIN1;
 }
 
-// Finds the encoding, unless it is known, and the ends of lines.
-static void find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
-  g_autofree guint8 *head = g_malloc(HEAD_BYTES);
+// Finds the encoding, unless it is known, and the ends of lines. Returns the name of a format that
+// is no text; NULL: none.
+static const char *find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
+  static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
+                                           {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},
+                                           {"TDSm", "a TDMS file"},
+                                           {"<", "HTML or XML"},
+                                           {"{", "JSON"},
+                                           {"[{", "JSON"},
+                                           {"%PDF", "a PDF"},
+                                           {NULL, NULL}};
+  g_autofree guint8 *head = g_malloc0(HEAD_BYTES + 1);
   const size_t looked = fread(head, 1, MIN(lines->length, HEAD_BYTES), lines->stream);
   lines->encoding =
       known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, lines->length);
   const bool old = memchr(head, '\n', looked) == NULL && memchr(head, '\r', looked) != NULL;
   lines->line_end = old ? '\r' : '\n';
+  const char *const *format = formats[0];
+  while (*format != NULL && !g_str_has_prefix((const char *)head, *format)) {
+    format += 2;
+  }
+  return format[1];
 }
 
 static void string_free(gpointer data) {
@@ -399,7 +413,11 @@ static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const cha
                         .lines = {.stream = stream, .length = length, .line = g_string_new(NULL)},
                         .owned = owned};
   wish = wish != NULL ? wish : &nothing;
-  find_lines(&table->file->lines, wish->encoding);
+  const char *format = find_lines(&table->file->lines, wish->encoding);
+  if (format != NULL) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "is %s: export it as text, such as CSV", format);
+    return NULL;
+  }
   table->dialect.encoding = table->file->lines.encoding;
   const Sample sample = take_sample(&table->file->lines);
   const bool good = recognise(table, &sample, wish, issues);

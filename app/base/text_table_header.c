@@ -135,19 +135,26 @@ static char **cells_by(const char *line, size_t length, char separator) {
 }
 
 // With the separator of the rows; if that gives another number of cells than the rows have, with
-// the first one that gives it.
+// the first one that gives it, also without a label in front ("columns: t x F").
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line) {
-  static const char separators[] = {'\t', ';', ',', '|', '\0'};
-  size_t length = MIN(line->len, HEADER_BYTES), skip = 0;
-  while (skip < length && memchr("#%! ", line->str[skip], skip > 0 ? 4 : 3) != NULL) {
-    skip++;
+  const char separators[] = {table->dialect.separator, '\t', ';', ',', '|', '\0'};
+  const char *at = line->str, *const end = at + MIN(line->len, HEADER_BYTES);
+  while (at < end && memchr("#%! ", *at, at > line->str ? 4 : 3) != NULL) {
+    at++;
   }
-  char **best = cells_by(line->str + skip, length - skip, table->dialect.separator);
-  for (size_t i = 0; i < sizeof separators && g_strv_length(best) != table->columns; i++) {
-    char **other = cells_by(line->str + skip, length - skip, separators[i]);
-    const bool fits = g_strv_length(other) == table->columns;
-    g_strfreev(fits ? best : other);
-    best = fits ? other : best;
+  char **best = NULL;
+  for (int label = 0; label < 2 && at != NULL; label++) {
+    for (size_t i = 0; i < sizeof separators; i++) {
+      char **other = cells_by(at, (size_t)(end - at), separators[i]);
+      const bool fits = g_strv_length(other) == table->columns;
+      g_strfreev(fits ? best : best != NULL ? other : NULL);
+      best = fits || best == NULL ? other : best;
+      if (fits) {
+        return best;
+      }
+    }
+    at = memchr(at, ':', (size_t)(end - at));
+    at += at != NULL;
   }
   return best;
 }
@@ -180,6 +187,12 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
   }
   return count > 0 && texts + (numbers > 2) >= numbers &&
          (count <= table->columns || texts == table->columns);
+}
+
+// Whether the last cell of a line begins with a quote that the line does not close.
+static bool opens_quote(const GString *line, char separator) {
+  const char *quote = strrchr(line->str, '"');
+  return quote != NULL && (quote == line->str || quote[-1] == separator);
 }
 
 // Takes units, or names with units, from a header line.
@@ -262,8 +275,14 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
   enum { LOOKED = 12 };
   bool named = false, united = false, stopped = false;
   for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
-    const SbTextTableShape shape = sb_text_table_shape(line[i], &table->dialect);
-    g_auto(GStrv) cells = sb_text_table_header_cells(table, line[i]);
+    // A cell in quotes may have several lines.
+    g_autoptr(GString) all = g_string_new_len(line[i]->str, (gssize)line[i]->len);
+    for (; i > 0 && opens_quote(line[i - 1], table->dialect.separator); i--) {
+      g_string_prepend_c(all, ' ');
+      g_string_prepend_len(all, line[i - 1]->str, (gssize)line[i - 1]->len);
+    }
+    const SbTextTableShape shape = sb_text_table_shape(all, &table->dialect);
+    g_auto(GStrv) cells = sb_text_table_header_cells(table, all);
     const bool units = are_units(cells), titled = names_columns(table, cells);
     // The rows of a block above, or the first line above the names that is not units, end it.
     stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;

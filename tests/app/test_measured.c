@@ -286,6 +286,9 @@ static void test_habits(void) {
       {"Operator;Miller\nZeit;Weg;Kraft\ns;mm;N\n", "@t;@x;@f\n",
        "s;mm;kN\n1;900;1\ns;mm;N\n;;\nOperator;Miller\nZeit;Weg;Kraft\ns;mm;kN\n1;900;1\n", ',', 1,
        1},
+      // A label before the names, ends of lines in quotes.
+      {"# test\n# columns: time[s] place_s[mm] force[N]\n", "@t @x @f\n", "", '.', 1, 1},
+      {"\"Time\n(s)\",\"Extension\nby LVDT\n(mm)\",\"Load\n(N)\"\n", "@t,@x,@f\n", "", '.', 1, 1},
       // No value in the last column of the first row.
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,OVER\n", "@t,@x,@f\n", "", '.', 1, 1},
@@ -399,6 +402,15 @@ static void test_refused(void) {
        SB_DATA_SPEED},
       {"Weg [km];Kraft [N]\n0.1;1.5\n0.2;1.6\n", NULL, "row 1 has a displacement of 100 m",
        SB_DATA_FILE},
+      {"Weg [mm];Kraft [MN]\n0.1;0.1\n0.2;1.6\n", NULL, "row 2 has a force of 1.6e+06 N",
+       SB_DATA_FILE},
+      {"Weg [mm];Kraft [dyn]\n0.1;1.5\n0.2;1.6\n", NULL, "\"dyn\", which is none of its kind",
+       SB_DATA_FILE},
+      {"Weg [mm];Kraft [x10 N]\n0.1;1.5\n0.2;2e4\n", "mm, 10 N", "row 2 has a force of 200000 N",
+       SB_DATA_UNITS},
+      {"PK\x03\x04\nA [mm];F [N]\n1;1\n2;2\n", NULL, "is a workbook (.xlsx, .ods)", SB_DATA_FILE},
+      {"<table>\nA [mm];F [N]\n1;1\n2;2\n", NULL, "is HTML or XML: export it as text",
+       SB_DATA_FILE},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -438,6 +450,8 @@ static void test_choices(void) {
       {"Weg [mm];Kraft\n0.1;1.5\n0.2;1.6\n0.3;1.7\n", "units",
        "mm, N\nmm, kN\nmm, gf\nmm, kgf\nmm, lbf"},
       {"Time [s];Kraft [N]\n0;1.5\n1;1.6\n2;1\n", "speed", ""},
+      {"Zeit [0.1 s];Weg [mm];Kraft [N]\n0;0;1.5\n1;1;1.6\n2;1;1\n", "units",
+       "0.1 s, mm, N\ns, mm, N"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
