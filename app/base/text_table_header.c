@@ -189,10 +189,15 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
          (count <= table->columns || texts == table->columns);
 }
 
-// Whether the last cell of a line begins with a quote that the line does not close.
-static bool opens_quote(const GString *line, char separator) {
-  const char *quote = strrchr(line->str, '"');
-  return quote != NULL && (quote == line->str || quote[-1] == separator);
+// Whether a quote that begins a cell is open at the end of line[count - 1], from at most 3 lines
+// before.
+static bool is_open(GString *const *line, size_t count, char separator) {
+  const char *quote = NULL;
+  const size_t least = count - MIN(count, 3);
+  while (count > least && (quote = strrchr(line[count - 1]->str, '"')) == NULL) {
+    count--;
+  }
+  return quote != NULL && (quote == line[count - 1]->str || quote[-1] == separator);
 }
 
 // Takes units, or names with units, from a header line.
@@ -277,7 +282,7 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
   for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
     // A cell in quotes may have several lines.
     g_autoptr(GString) all = g_string_new_len(line[i]->str, (gssize)line[i]->len);
-    for (; i > 0 && opens_quote(line[i - 1], table->dialect.separator); i--) {
+    for (; is_open(line, i, table->dialect.separator); i--) {
       g_string_prepend_c(all, ' ');
       g_string_prepend_len(all, line[i - 1]->str, (gssize)line[i - 1]->len);
     }

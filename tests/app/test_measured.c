@@ -287,7 +287,7 @@ static void test_habits(void) {
        "s;mm;kN\n1;900;1\ns;mm;N\n;;\nOperator;Miller\nZeit;Weg;Kraft\ns;mm;kN\n1;900;1\n", ',', 1,
        1},
       // A label before the names, ends of lines in quotes.
-      {"# test\n# columns: time[s] place_s[mm] force[N]\n", "@t @x @f\n", "", '.', 1, 1},
+      {"# test\n# columns: time[s] displacement[mm] force[N]\n", "@t @x @f\n", "", '.', 1, 1},
       {"\"Time\n(s)\",\"Extension\nby LVDT\n(mm)\",\"Load\n(N)\"\n", "@t,@x,@f\n", "", '.', 1, 1},
       // No value in the last column of the first row.
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
@@ -321,6 +321,7 @@ static void test_habits(void) {
       read_habit(&(Habit){"Time (s),Position (mm),Force (N)\n", "@t,@x,@f\n", "", '.', 1, 1});
   for (size_t i = 0; i < G_N_ELEMENTS(habits); i++) {
     g_autoptr(SbMeasured) other = read_habit(&habits[i]);
+    g_test_message("habit %zu", i);
     g_assert_cmpuint(other->count, ==, ROWS);
     // Roundings of a row's five digits, of those of the zero and of the slope.
     const double force = 2e-5 / habits[i].force_scale + 2e-5;
