@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#define SPEED_MAX 10.0 // of a test machine [m/s]
-enum { ROWS_MIN = 8 }; // of a loop
+#define SPEED_MAX 10.0                                        // of a test machine [m/s]
+enum { ROWS_MIN = 8 };                                        // of a loop
+#define CYCLE "cy[ck]l|zykl|ciclo|\\bloop|цикл|循环|サイクル" // in a line above a cycle
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -288,9 +289,11 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
 
 // ---- Rows ----
 
-// Makes the forces of blocks behind a blank line that do not continue the table not a number. Two
-// of these are true of them: the time goes back; the displacement jumps further than between rows
-// of a long block; there are too few rows for a loop. The shorter side of the line is dropped.
+// Makes the forces of blocks behind a blank line or names that do not continue the table not a
+// number. Two of these are true of them: the time goes back; the displacement jumps further than
+// between rows of a long block; there are too few rows for a loop. The shorter side of the line is
+// dropped. A block whose time goes back, or a long one without time whose displacement does, is
+// another test, unless a line calls it a cycle.
 static void drop_blocks(SbMeasured *m, const double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0;
@@ -299,6 +302,8 @@ static void drop_blocks(SbMeasured *m, const double *block) {
   for (size_t i = most; place != NULL && i < m->count; i++) {
     step = block[i] == block[i - most] ? fmax(step, fabs(place[i] - place[i - 1])) : step;
   }
+  const char *line = m->lines.left_text != NULL ? m->lines.left_text : "";
+  const bool cycles = g_regex_match_simple(CYCLE, line, G_REGEX_CASELESS, 0);
   for (size_t i = 0, end, kept = 0, last = 0; i < m->count; i = end) {
     for (end = i + 1; end < m->count && block[end] == block[i];) {
       end++;
@@ -311,6 +316,10 @@ static void drop_blocks(SbMeasured *m, const double *block) {
       m->force[k] = NAN;
     }
     m->jumps |= (back || jump) && !apart;
+    const bool again = time == NULL && place != NULL && MIN(kept, end - i) >= ROWS_MIN &&
+                       2 * (end - i) >= kept &&
+                       fabs(place[i] - place[0]) <= fabs(place[i] - place[last]);
+    m->tests += (back || again) && !apart && !cycles;
     kept = apart ? MAX(kept, end - i) : kept + end - i;
     last = apart && !before ? last : end - 1;
   }

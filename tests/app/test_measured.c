@@ -538,28 +538,34 @@ static void test_settled(void) {
 // Numbers behind a blank line that do not continue the table are dropped, and counted; a cycle
 // with a clock of its own, pages and lines apart are read.
 static void test_blocks(void) {
+#define HEAD "Zeit [s];Weg [mm];Kraft [N]\n"
+#define LOOP "0;0;20\n1;1;20\n2;2;20\n3;3;20\n4;4;20\n5;3;5\n6;2;5\n7;0;5\n"
   enum { HALF = 40, COUNT = 2 * HALF + 1 };
   static const struct {
     const char *head, *tail; // before and behind the rows
     int every;               // rows between blank lines; 0: no blank line
     size_t rows, dropped;
     bool jumps, timeless;
+    size_t tests; // below the first one
   } cases[] = {
-      {"", "", 0, COUNT, 0, false, false},
-      {"", "", 1, COUNT, 0, false, false},
-      {"", "", 7, COUNT, 0, false, false},
-      {"", "", 7, COUNT, 0, false, true},
-      {"", "\n8,1;9,75;20,0\n0,1;0,0;5,0\n", 0, COUNT, 2, false, false},
-      {"", ";;\n;;\n4,1;0,0;20,0\n", 0, COUNT, 1, false, false},
-      {"", "\n9,75;20,0\n0,0;5,0\n", 0, COUNT, 2, false, false},
-      {"", "\n9,75\n", 7, COUNT, 1, false, false},
-      {"", "\n;9,75;20,0\n", 0, COUNT, 1, false, true},
-      {"8,1;9,75;20,0\n0,1;0,0;5,0\n\n", "", 0, COUNT, 2, false, false},
-      {"", "\n9,9;9,75;20,0\n9,9;8,0;5,0\n", 0, COUNT, 2, false, false},
-      {"", "\n0;0;20\n1;1;20\n2;2;20\n3;3;20\n4;4;20\n5;3;5\n6;2;5\n7;0;5\n", 0, COUNT + 8, 0, true,
-       false},
+      {"", "", 0, COUNT, 0, false, false, 0},
+      {"", "", 1, COUNT, 0, false, false, 0},
+      {"", "", 7, COUNT, 0, false, false, 0},
+      {"", "", 7, COUNT, 0, false, true, 0},
+      {"", "\n8,1;9,75;20,0\n0,1;0,0;5,0\n", 0, COUNT, 2, false, false, 0},
+      {"", ";;\n;;\n4,1;0,0;20,0\n", 0, COUNT, 1, false, false, 0},
+      {"", "\n9,75;20,0\n0,0;5,0\n", 0, COUNT, 2, false, false, 0},
+      {"", "\n9,75\n", 7, COUNT, 1, false, false, 0},
+      {"", "\n;9,75;20,0\n", 0, COUNT, 1, false, true, 0},
+      {"8,1;9,75;20,0\n0,1;0,0;5,0\n\n", "", 0, COUNT, 2, false, false, 0},
+      {"", "\n9,9;9,75;20,0\n9,9;8,0;5,0\n", 0, COUNT, 2, false, false, 0},
+      {"", "\n" LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", "\nProbe 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", "\nZyklus 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 0},
+      {"0;0;1\n1;9;2\n" HEAD, "", 0, COUNT, 2, false, false, 0},
       {"", "\n0;7;20\n1;6;20\n2;7;20\n3;6;20\n4;7;20\n5;6;5\n6;7;5\n7;6;5\n", 0, COUNT, 8, false,
-       false},
+       false, 0},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GString) text = g_string_new(cases[i].timeless ? "n;Weg [mm];Kraft [N]\n"
@@ -583,6 +589,9 @@ static void test_blocks(void) {
     g_autofree char *words = sb_measured_text(m);
     g_assert_true((strstr(words, "continue the table") != NULL) == (cases[i].dropped > 0));
     g_assert_true((strstr(words, "jumps at a blank line") != NULL) == cases[i].jumps);
+    g_assert_cmpuint(m->tests, ==, cases[i].tests);
+    g_assert_cmpuint(m->last, ==, cases[i].tests > 0 ? 0 : m->cycle->len - 1);
+    g_assert_true((strstr(words, "one below the other") != NULL) == (cases[i].tests > 0));
   }
 }
 
