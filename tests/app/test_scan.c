@@ -93,7 +93,7 @@ static void test_gwy(void) {
   sb_scan_clear(&scan);
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "9"}, "not lengths");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "4"},
-                 "no channel 4 (there are 0 \"Topography 0\", 9)");
+                 "no channel 4 (numbers and titles: 0 \"Topography 0\", 9)");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "--unit");
   assert_chosen((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "unit", "");
   assert_chosen((char *)bytes->data, bytes->len, &(SbScanChoices){.lateral_unit = 1},
@@ -323,6 +323,19 @@ static void test_matrix(void) {
   g_string_truncate(text, text->len - 100);
   assert_refused(text->str, text->len, &plain, "numbers where the header announces 20 x 17");
   g_string_free(text, TRUE);
+}
+
+// A line that may multiply the heights, but does not, is named.
+static void test_resolution(void) {
+  SbScan scan;
+  static const char text[] =
+      "dx: 1 um\ndy: 1 um\nZ resolution: 2 nm\nZ unit: nm\n1 2 3 4\n2 3 4 1\n";
+  g_assert_true(sb_scan_parse(&scan, text, strlen(text), &plain, "scan", NULL));
+  g_assert_cmpuint(scan.notes->len, ==, 1);
+  g_assert_cmpstr(scan.notes->pdata[0], ==,
+                  "line 3: \"z resolution\" 2 nm does not multiply the heights");
+  g_assert_cmpfloat_with_epsilon(scan.heights.z[1], 2e-9, 1e-20);
+  sb_scan_clear(&scan);
 }
 
 // Commas that separate numbers and are their decimal marks too: zeros before other digits or a line
@@ -685,6 +698,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/scan/sur", test_sur);
   g_test_add_func("/scan/x3p", test_x3p);
   g_test_add_func("/scan/matrix", test_matrix);
+  g_test_add_func("/scan/resolution", test_resolution);
   g_test_add_func("/scan/commas", test_commas);
   g_test_add_func("/scan/sdf", test_sdf);
   g_test_add_func("/scan/headers", test_headers);

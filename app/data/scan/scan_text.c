@@ -201,13 +201,16 @@ static Header header_of(const SbScanText *text) {
 
 // Takes the factor of written heights, with its own unit or in the unit of heights. False with an
 // error if a line may state one, unless the caller specified the unit of the written numbers.
-static bool take_factor(Header *h, const SbScanText *text, const SbScanChoices *choices,
-                        GError **error) {
-  const SbScanEntry *factor = NULL, *doubt = NULL;
+static bool take_factor(Header *h, SbScan *out, const SbScanText *text,
+                        const SbScanChoices *choices, GError **error) {
+  const SbScanEntry *factor = NULL, *doubt = NULL, *resolution = NULL;
   for (guint i = 0; i < text->entries->len && factor == NULL; i++) {
     const SbScanEntry *entry = text->entries->pdata[i];
     if (isfinite(entry->number) && entry->number != 0 &&
-        !g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
+        g_regex_match_simple(KEY_RESOLUTION, entry->name, 0, 0)) {
+      resolution = entry;
+    } else if (isfinite(entry->number) && entry->number != 0 &&
+               !g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
       factor = g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
       doubt = doubt == NULL && entry->number != 1 &&
                       g_regex_match_simple(KEY_PERHAPS, entry->name, 0, 0)
@@ -220,6 +223,11 @@ static bool take_factor(Header *h, const SbScanText *text, const SbScanChoices *
                                "line %d: it is not clear whether \"%s\" multiplies the heights, "
                                "which decides the unit of the numbers",
                                doubt->line, doubt->name);
+  }
+  resolution = doubt != NULL ? doubt : resolution;
+  if (factor == NULL && resolution != NULL) {
+    sb_note_add(out->notes, "line %d: \"%s\" %s does not multiply the heights", resolution->line,
+                resolution->name, resolution->value);
   }
   h->factor = factor != NULL ? factor->number : NAN;
   h->vertical = factor != NULL && factor->unit > 0 ? factor->unit : h->vertical;
@@ -325,7 +333,7 @@ static bool read_entry_text(SbScan *out, SbScanText *text, const SbScanChoices *
                               placed);
   }
   const bool bare = !spaced && (h.bare[0] || (matrix && h.bare[1]));
-  if (!take_factor(&h, text, choices, error) ||
+  if (!take_factor(&h, out, text, choices, error) ||
       !find_units(&h, out, text, choices, matrix || columns == 1 ? bare : true, error)) {
     return false;
   }
