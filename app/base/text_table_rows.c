@@ -187,7 +187,7 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
       out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines->number : out->ragged;
       out->rows++;
     }
-    g_array_set_size(out->value, other ? begin : out->value->len);
+    g_array_set_size(out->value, other || count < 0 ? begin : out->value->len);
     if (!above && ((count < 0 && !block.headed) || (count > 0 && headed && !other))) {
       g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
       good = sb_issues_add(

@@ -68,8 +68,8 @@ typedef struct {
 typedef struct {
   GPtrArray *entries;       // of SbScanEntry
   const SbTextTable *table; // its columns and their units
-  SbTextTableMatrix matrix; // its numbers, of three named columns at most only these
-  gsize use[3];             // the table's column of each of the matrix' first ones
+  SbTextTableMatrix matrix; // its numbers
+  gsize axes, use[3];       // columns in use: x, y, z; x, z; or z; above 3: a matrix
 } SbScanText;
 
 // Writes points with columns x, y, z to the grid that they form, for which sb_scan_is_grid()

@@ -77,23 +77,7 @@ static const SbScanEntry *find_entry(const SbScanText *text, const char *key, bo
   return found;
 }
 
-// Keeps `count` columns of the matrix.
-static void keep_columns(SbScanText *text, const gsize *use, gsize count) {
-  SbTextTableMatrix *matrix = &text->matrix;
-  double *value = (double *)(void *)matrix->value->data;
-  for (gsize row = 0; row < matrix->rows; row++) {
-    double kept[3];
-    for (gsize k = 0; k < count; k++) {
-      kept[k] = value[row * matrix->columns + use[k]];
-    }
-    memcpy(value + row * count, kept, count * sizeof *kept);
-  }
-  memmove(text->use, use, count * sizeof *use);
-  matrix->columns = count;
-  g_array_set_size(matrix->value, (guint)(matrix->rows * count));
-}
-
-// Finds the columns x, y and z by their names and keeps them alone. Of two or three columns, those
+// Finds the columns x, y and z by their names. Of two or three columns, those
 // with other names are the remaining ones in this order. False with an error if two columns may be
 // one of them, or if the places form no grid.
 static bool find_columns(SbScan *out, SbScanText *text, GError **error) {
@@ -132,25 +116,18 @@ static bool find_columns(SbScan *out, SbScanText *text, GError **error) {
       use[axis] = other[next++];
     }
   }
-  const gsize profile[2] = {use[0], use[2]}, both[2] = {0, 2};
-  keep_columns(text, use[1] < none ? use : profile, use[1] < none ? 3 : 2);
-  if (text->matrix.columns == 3 && !sb_scan_is_grid(text)) {
+  memcpy(text->use, use, sizeof use);
+  text->axes = use[1] < none ? 3 : 2;
+  if (text->axes == 3 && !sb_scan_is_grid(text)) {
     if (!between) {
-      return sb_app_error_input(
-          error,
-          "its points form no grid of equal steps in x and y, and no two columns are x and z");
+      return sb_app_error_input(error, "x and y of its points form no grid of equal steps");
     }
-    keep_columns(text, both, 2);
-    memcpy(text->use, profile, sizeof profile);
+    text->axes = 2;
   }
-  g_autoptr(GString) list = g_string_new(NULL);
-  bool usual = columns == text->matrix.columns;
-  for (gsize k = 0; k < text->matrix.columns; k++) {
-    g_string_append_printf(list, "%s%zu", k > 0 ? ", " : "", text->use[k] + 1);
-    usual = usual && text->use[k] == k;
-  }
-  if (!usual) {
-    sb_note_add(out->notes, "columns %s are used, by their names", list->str);
+  text->use[1] = text->axes == 2 ? use[2] : use[1];
+  if (columns > text->axes || use[0] != 0 || text->use[1] != 1) {
+    sb_note_add(out->notes, "the columns are used by their names: x is number %zu, z number %zu",
+                use[0] + 1, use[2] + 1);
   }
   return true;
 }
@@ -254,9 +231,8 @@ static bool settle_unit(double *unit, double column, double chosen, bool needed,
 // too, which a note states. Without any other, it is the unit of lengths. False with an error.
 static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbScanChoices *choices,
                        bool needs_lateral, GError **error) {
-  const gsize columns = text->matrix.columns;
+  const gsize columns = text->axes, *use = text->use;
   const SbTextTableColumn *column = text->table->column;
-  const gsize *use = text->use;
   const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[use[0]].unit) : 0;
   const double y = columns == 3 ? sb_scan_length(column[use[1]].unit) : 0;
   const double z = columns <= 3 ? sb_scan_length(column[use[columns - 1]].unit) : 0;
@@ -306,7 +282,7 @@ static bool read_entry_text(SbScan *out, SbScanText *text, const SbScanChoices *
   if (!sized && text->matrix.ragged == 0 && !find_columns(out, text, error)) {
     return false;
   }
-  const gsize columns = text->matrix.columns;
+  const gsize columns = text->axes;
   const bool points = !sized && columns == 3 && text->matrix.ragged == 0 && sb_scan_is_grid(text);
   const bool matrix = sized || (columns > 2 && !points), spaced = choices->spacing > 0;
   out->title = *title->key != '\0' ? g_strdup(title->value) : NULL;
@@ -322,7 +298,7 @@ static bool read_entry_text(SbScan *out, SbScanText *text, const SbScanChoices *
                                 text->matrix.value->len, h.columns, h.rows);
     }
   } else if (text->matrix.ragged > 0) {
-    return sb_app_error_input(error, "line %d has not %" G_GSIZE_FORMAT " numbers as the first",
+    return sb_app_error_input(error, "line %d has not %zu numbers as the first",
                               text->matrix.ragged, columns);
   }
   const char *placed = matrix ? sb_scan_placed(text, announced) : NULL;
@@ -338,9 +314,9 @@ static bool read_entry_text(SbScan *out, SbScanText *text, const SbScanChoices *
     return false;
   }
   // Heights are in the last column; those at the end of single precision mark void points.
-  const gsize step = matrix ? 1 : columns;
+  const gsize step = matrix ? 1 : text->matrix.columns;
   const double low = 0x1p127 * (1 - 1e-4), high = 0x1p128;
-  for (gsize i = step - 1; i < text->matrix.value->len; i += step) {
+  for (gsize i = matrix ? 0 : text->use[columns - 1]; i < text->matrix.value->len; i += step) {
     double *z = &g_array_index(text->matrix.value, double, i);
     *z = *z == h.missing || (fabs(*z) >= low && fabs(*z) <= high) ? NAN : *z;
   }
@@ -381,6 +357,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
     sb_note_add(out->notes, "%zu rows of numbers are not read, as they are another table (line %d)",
                 text.matrix.other, text.matrix.other_line);
   }
+  text.axes = text.matrix.columns;
   const bool good = read_entry_text(out, &text, choices, error);
   g_array_unref(text.matrix.value);
   return good;
