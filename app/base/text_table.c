@@ -67,14 +67,28 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
                                            : SB_TEXT_TABLE_LATIN1;
 }
 
-// Finds the encoding, unless it is known, and the ends of lines.
-static void find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
-  g_autofree guint8 *head = g_malloc(HEAD_BYTES);
+// Finds the encoding, unless it is known, and the ends of lines. Returns the name of a format that
+// is no text; NULL: none.
+static const char *find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
+  static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
+                                           {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},
+                                           {"TDSm", "a TDMS file"},
+                                           {"<", "HTML or XML"},
+                                           {"{", "JSON"},
+                                           {"[{", "JSON"},
+                                           {"%PDF", "a PDF"},
+                                           {NULL, NULL}};
+  g_autofree guint8 *head = g_malloc0(HEAD_BYTES + 1);
   const size_t looked = fread(head, 1, MIN(lines->length, HEAD_BYTES), lines->stream);
   lines->encoding =
       known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, lines->length);
   const bool old = memchr(head, '\n', looked) == NULL && memchr(head, '\r', looked) != NULL;
   lines->line_end = old ? '\r' : '\n';
+  const char *const *format = formats[0];
+  while (*format != NULL && !g_str_has_prefix((const char *)head, *format)) {
+    format += 2;
+  }
+  return format[1];
 }
 
 static void string_free(gpointer data) {
@@ -207,6 +221,11 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
       (dialect->matrix && (fit.shape.saw & SB_TEXT_TABLE_SAW_PADDED) != 0)) {
     fit.score *= 0.5;
   }
+  // In a matrix, a mark before three digits is a decimal mark, unless there is another one, or the
+  // mark is between commas and in quotes.
+  const bool quoted = sample->quoted && dialect->separator == ',';
+  const unsigned decimals = fit.shape.saw & (SB_TEXT_TABLE_SAW_MARK | SB_TEXT_TABLE_SAW_DECIMAL);
+  fit.score *= !dialect->matrix || quoted || decimals != SB_TEXT_TABLE_SAW_MARK;
   return fit;
 }
 
@@ -250,13 +269,14 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
   Fit rival = {0};
   for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
     for (size_t m = 0; m < G_N_ELEMENTS(marks); m++) {
-      // In quotes, the separator can be a mark between thousands. Instruments write none.
-      const SbTextTableDialect dialect = {.encoding = table->dialect.encoding,
-                                          .separator = separators[s],
-                                          .decimal = marks[m],
-                                          .dates = wish->dates,
-                                          .thousands = wish->matrix ? '\0' : marks[1 - m],
-                                          .matrix = wish->matrix};
+      // In quotes, the separator can be a mark between thousands.
+      const SbTextTableDialect dialect = {
+          .encoding = table->dialect.encoding,
+          .separator = separators[s],
+          .decimal = marks[m],
+          .dates = wish->dates,
+          .thousands = separators[s] == SB_TEXT_TABLE_PAIRS ? '\0' : marks[1 - m],
+          .matrix = wish->matrix};
       if ((wish->separator != '\0' && wish->separator != separators[s]) ||
           (wish->decimal != '\0' && wish->decimal != marks[m]) ||
           (separators[s] == marks[m] && !sample->quoted) ||
@@ -293,62 +313,33 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 
 // ---- Blocks ----
 
-// Whether a line directly after a row names each column, with different texts ("OVER" in each names
-// none); if blanks separate the cells, with a unit, because a remark has as many words.
-static bool names_each(const SbTextTable *table, const GString *line) {
-  const SbTextTableShape *rows = &table->file->shape;
-  g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
-  int named = 0;
-  for (char **cell = cells; *cell != NULL; cell++) {
-    named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
-  }
-  return named >= __builtin_popcountll(rows->numeric | rows->clocks | rows->texts) &&
-         (table->dialect.separator != ' ' || strpbrk(line->str, "[(") != NULL);
+bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
+  const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
+  return (shape.numeric | shape.clocks) != 0 &&
+         same_shape(&shape, &table->file->shape, &table->dialect);
 }
 
-void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
-                              const SbTextTable *table) {
-  enum { NAMES_BYTES = 4096 };
-  bool names = false;
-  if (!row) {
-    const SbTextTableShape here = sb_text_table_shape(line, &table->dialect);
-    const guint64 values = table->file->shape.numeric | table->file->shape.clocks;
-    const bool matrix = table->dialect.matrix;
-    const int least = matrix ? 1 : MAX(2, __builtin_popcountll(values) - 1);
-    const bool numbers = !matrix && (here.numeric | here.clocks) != 0;
-    names = !numbers && __builtin_popcountll(here.texts) >= least &&
-            (!block->after_row || (!matrix && names_each(table, line)));
-  }
-  if (names && !block->after_names) {
-    g_free(block->names);
-    block->names = g_strndup(line->str, MIN(line->len, NAMES_BYTES));
-  }
-  block->after_names = names;
-  block->after_row = row;
-}
-
-// Finds the line where the longest block of rows begins, and the names above the block.
+// Finds the line where the longest block of rows begins, and the names and units above the block.
 static void find_block(SbTextTable *table, const Sample *sample) {
-  // Names -> index of the first row, number of rows.
+  // Names, of a matrix with the number of cells -> index of the first row, number of rows.
   g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
   size_t most = 0;
   SbTextTableBlock block = {0};
   table->header_lines = sample->head;
   for (size_t i = 0; i < sample->head; i++) {
     const GString *line = sample->line->pdata[i];
-    const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
-    const bool row = (shape.numeric | shape.clocks) != 0 &&
-                     same_shape(&shape, &table->file->shape, &table->dialect);
+    const bool row = sb_text_table_is_row(table, line);
     sb_text_table_block_next(&block, row, line, table);
     if (!row) {
       continue;
     }
-    const char *names = block.names != NULL ? block.names : "";
+    const size_t span = table->dialect.matrix ? sb_text_table_shape(line, &table->dialect).span : 0;
+    g_autofree char *names = g_strdup_printf("%zu%s", span, block.names != NULL ? block.names : "");
     size_t *found = g_hash_table_lookup(blocks, names);
     if (found == NULL) {
       found = g_new0(size_t, 2);
       found[0] = i;
-      g_hash_table_insert(blocks, g_strdup(names), found);
+      g_hash_table_insert(blocks, g_steal_pointer(&names), found);
     }
     if (++found[1] > most) {
       most = found[1];
@@ -422,7 +413,11 @@ static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const cha
                         .lines = {.stream = stream, .length = length, .line = g_string_new(NULL)},
                         .owned = owned};
   wish = wish != NULL ? wish : &nothing;
-  find_lines(&table->file->lines, wish->encoding);
+  const char *format = find_lines(&table->file->lines, wish->encoding);
+  if (format != NULL) {
+    sb_issues_add(issues, shown, 0, NULL, NULL, "is %s: export it as text, such as CSV", format);
+    return NULL;
+  }
   table->dialect.encoding = table->file->lines.encoding;
   const Sample sample = take_sample(&table->file->lines);
   const bool good = recognise(table, &sample, wish, issues);

@@ -9,10 +9,10 @@
 // that begin with #, % or ! are comments.
 //
 // The table is the longest block of rows with the same cells. A line of names above rows begins a
-// block, directly after a row if it names each column; blocks under the same line are one. Other
-// rows, such as those of a results table, are not read. The lines above the table are its header:
-// its last ones give names and units. A unit is in brackets, follows "in", "/", "_" or a blank, or
-// is in a line of units.
+// block, directly after a row if it names each column, as does a line of units; blocks under the
+// same names and units are one. Other rows, such as those of a results table, are not read. The
+// lines above the table are its header: its last ones give names and units. A unit is in brackets,
+// follows "in", "/", "_" or a blank, or is in a line of units.
 //
 // An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
 // interpretations in the message. The file stays open and is read piece by piece, so that memory is
@@ -95,7 +95,7 @@ enum { SB_TEXT_TABLE_ROWS_MAX = 50000000 };
 typedef struct {
   size_t rows;    // rows in the arrays
   size_t damaged; // rows left out: unreadable cell, NUL, or other columns behind a blank line
-  size_t skipped; // other lines between rows, left out
+  size_t skipped; // other lines between rows, and rows of other blocks above them, left out
   int left_line;  // number of the first skipped line, from 1; if none is, of the first row left out
   char *left_text; // its text, freed by g_free(); NULL: no line was left out
 } SbTextTableRows;
@@ -103,7 +103,8 @@ typedef struct {
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
 // numbers of column[k] in the file's units, freed by g_free(); times of day in seconds from
 // midnight of the first day; NaN for an empty cell; for the index table->columns, the row's block,
-// from 0, cut at blank lines. Returns false with one issue: memory, too many rows, ambiguous dates.
+// from 0, cut at blank lines and names. Returns false with one issue: memory, too many rows,
+// ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
@@ -112,11 +113,13 @@ typedef struct {
   GArray *value;        // of double; NaN: void. Freed by g_array_unref()
   size_t rows, columns; // lines; numbers of the first one
   int ragged;           // number of the first line with another count of numbers; 0: none
+  size_t other;         // rows of other blocks, not read
+  int other_line;       // number of the first one
 } SbTextTableMatrix;
 
 // Reads all numbers of a table that was opened with `matrix`, at most `most` of a line and 3 `most`
-// altogether. Returns false with one issue, *out then empty, if there are more, or if a line behind
-// the first row has a cell that is not a number.
+// altogether. Returns false with one issue, *out then empty, if there are more, if a line directly
+// behind a row has a cell that is not a number, or if other blocks have half as many rows.
 bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
                                GPtrArray *issues);
 

@@ -163,7 +163,8 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
       plain[count++] = *c++;
     } else if (whole && run > 0 && (grouped ? run == 3 : run <= 3 && *first != '0') &&
                (mark = group_mark(c, end, dialect->thousands)) > 0) {
-      seen |= SB_TEXT_TABLE_SAW_GROUPS | (*c == ' ' ? SB_TEXT_TABLE_SAW_BLANK : 0);
+      seen |= SB_TEXT_TABLE_SAW_GROUPS | (*c == ' ' ? SB_TEXT_TABLE_SAW_BLANK : 0) |
+              (*c == dialect->thousands ? SB_TEXT_TABLE_SAW_MARK : 0);
       run = 0;
       c += mark;
     } else if (whole && *c == dialect->decimal) {

@@ -135,19 +135,26 @@ static char **cells_by(const char *line, size_t length, char separator) {
 }
 
 // With the separator of the rows; if that gives another number of cells than the rows have, with
-// the first one that gives it.
+// the first one that gives it, also without a label in front ("columns: t x F").
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line) {
-  static const char separators[] = {'\t', ';', ',', '|', '\0'};
-  size_t length = MIN(line->len, HEADER_BYTES), skip = 0;
-  while (skip < length && memchr("#%! ", line->str[skip], skip > 0 ? 4 : 3) != NULL) {
-    skip++;
+  const char separators[] = {table->dialect.separator, '\t', ';', ',', '|', '\0'};
+  const char *at = line->str, *const end = at + MIN(line->len, HEADER_BYTES);
+  while (at < end && memchr("#%! ", *at, at > line->str ? 4 : 3) != NULL) {
+    at++;
   }
-  char **best = cells_by(line->str + skip, length - skip, table->dialect.separator);
-  for (size_t i = 0; i < sizeof separators && g_strv_length(best) != table->columns; i++) {
-    char **other = cells_by(line->str + skip, length - skip, separators[i]);
-    const bool fits = g_strv_length(other) == table->columns;
-    g_strfreev(fits ? best : other);
-    best = fits ? other : best;
+  char **best = NULL;
+  for (int label = 0; label < 2 && at != NULL; label++) {
+    for (size_t i = 0; i < sizeof separators; i++) {
+      char **other = cells_by(at, (size_t)(end - at), separators[i]);
+      const bool fits = g_strv_length(other) == table->columns;
+      g_strfreev(fits ? best : best != NULL ? other : NULL);
+      best = fits || best == NULL ? other : best;
+      if (fits) {
+        return best;
+      }
+    }
+    at = memchr(at, ':', (size_t)(end - at));
+    at += at != NULL;
   }
   return best;
 }
@@ -182,6 +189,17 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
          (count <= table->columns || texts == table->columns);
 }
 
+// Whether a quote that begins a cell is open at the end of line[count - 1], from at most 3 lines
+// before.
+static bool is_open(GString *const *line, size_t count, char separator) {
+  const char *quote = NULL;
+  const size_t least = count - MIN(count, 3);
+  while (count > least && (quote = strrchr(line[count - 1]->str, '"')) == NULL) {
+    count--;
+  }
+  return quote != NULL && (quote == line[count - 1]->str || quote[-1] == separator);
+}
+
 // Takes units, or names with units, from a header line.
 static void take_header_line(SbTextTable *table, char *const *cells, bool units_only) {
   for (size_t k = 0; k < table->columns && cells[k] != NULL; k++) {
@@ -201,12 +219,75 @@ static void take_header_line(SbTextTable *table, char *const *cells, bool units_
   }
 }
 
+// Whether a line directly after a row names each column, with different texts ("OVER" in each names
+// none); of a comment or matrix, or if blanks separate the cells, with a unit: a remark has as many
+// words.
+static bool names_each(const SbTextTable *table, const GString *line, char *const *cells) {
+  const SbTextTableShape *rows = &table->file->shape;
+  int named = 0;
+  for (char *const *cell = cells; *cell != NULL; cell++) {
+    named += **cell != '\0' && (cell == cells || strcmp(cell[0], cell[-1]) != 0);
+  }
+  const bool words =
+      table->dialect.separator == ' ' || table->dialect.matrix || strspn(line->str, "#%!") > 0;
+  return named >= MAX(__builtin_popcountll(rows->numeric | rows->clocks | rows->texts), 2) &&
+         (!words || strpbrk(line->str, "[(") != NULL);
+}
+
+// Whether a line names columns or states their units: all its cells are texts.
+static bool heads(bool *units, const SbTextTable *table, char *const *cells) {
+  double value;
+  SbTextTableClock clock;
+  *units = are_units(cells) && cells[1] != NULL;
+  bool texts = *units || names_columns(table, cells);
+  for (; *cells != NULL && texts; cells++) {
+    const SbTextTableCell cell = {*cells, strlen(*cells)};
+    texts = !sb_text_table_number(&value, &cell, &table->dialect, NULL) &&
+            !sb_text_table_clock(&clock, &cell);
+  }
+  return texts;
+}
+
+void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
+                              const SbTextTable *table) {
+  const bool after_row = block->after_row, matrix = table->dialect.matrix;
+  block->after_row = row;
+  block->headed = !row && block->headed;
+  if (row || line->len == 0 || (matrix && strspn(line->str, "#%!") > 0)) {
+    return;
+  }
+  bool units = false;
+  g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
+  const bool headed = heads(&units, table, cells);
+  if (matrix && !after_row) {
+    units = false;
+  } else if (!headed || (after_row && !names_each(table, line, cells))) {
+    return;
+  }
+  // Names and units, with a newline between. Without a line of units, the same names have those
+  // that they had.
+  const char *old = block->names != NULL ? block->names : "\n";
+  g_autofree char *text = g_strjoinv("\t", cells);
+  char *both = units ? g_strdup_printf("%.*s\n%s", (int)strcspn(old, "\n"), old, text)
+                     : g_strconcat(text, "\n", NULL);
+  const bool other = units || !g_str_has_prefix(old, both);
+  g_free(other ? block->names : both);
+  block->names = other ? both : block->names;
+  block->headed = true;
+}
+
 void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count) {
   enum { LOOKED = 12 };
   bool named = false, united = false, stopped = false;
   for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
-    const SbTextTableShape shape = sb_text_table_shape(line[i], &table->dialect);
-    g_auto(GStrv) cells = sb_text_table_header_cells(table, line[i]);
+    // A cell in quotes may have several lines.
+    g_autoptr(GString) all = g_string_new_len(line[i]->str, (gssize)line[i]->len);
+    for (; is_open(line, i, table->dialect.separator); i--) {
+      g_string_prepend_c(all, ' ');
+      g_string_prepend_len(all, line[i - 1]->str, (gssize)line[i - 1]->len);
+    }
+    const SbTextTableShape shape = sb_text_table_shape(all, &table->dialect);
+    g_auto(GStrv) cells = sb_text_table_header_cells(table, all);
     const bool units = are_units(cells), titled = names_columns(table, cells);
     // The rows of a block above, or the first line above the names that is not units, end it.
     stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;

@@ -51,6 +51,7 @@ enum {
   SB_TEXT_TABLE_SAW_GROUPS = 2, // a mark between thousands
   SB_TEXT_TABLE_SAW_LONG = 4,   // four digits or more and no mark between them
   SB_TEXT_TABLE_SAW_BLANK = 8,  // a blank between thousands
+  SB_TEXT_TABLE_SAW_MARK = 32,  // a point or comma between thousands
   SB_TEXT_TABLE_SAW_PADDED = 16 // a zero before other digits, or -0: no program writes integers so
 };
 
@@ -87,8 +88,9 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
 
 // Where a line is among the blocks of a file. Initialise with {0}; the caller frees `names`.
 typedef struct {
-  char *names;                 // the line of names above the block; NULL: none. Freed by g_free()
-  bool after_row, after_names; // the last line was a row of the table; it was a line of names
+  char *names;    // names and units above the block; NULL: none. Freed by g_free()
+  bool after_row; // the last line was a row of the table
+  bool headed;    // names or units were found behind the last row
 } SbTextTableBlock;
 
 // Where a table is read from.
@@ -97,8 +99,11 @@ typedef struct SbTextTableFile {
   SbTextTableLines lines;
   char *owned;            // memory of the bytes of a pipe; else NULL
   SbTextTableShape shape; // of its rows
-  char *names;            // line of names above its rows, as in the file; NULL: none
+  char *names;            // names and units above its rows; NULL: none
 } SbTextTableFile;
+
+// Returns whether a line has values where the rows of the table have them.
+bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
 
 // Moves to the next line: `row` states whether it is a row of the table.
 void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,

@@ -67,6 +67,16 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
+// Counts a line that is left out; the first one that is no damaged row is stored.
+static void leave_line(SbTextTableRows *out, int number, const GString *text, bool damaged) {
+  *(damaged ? &out->damaged : &out->skipped) += 1;
+  if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
+    g_free(out->left_text);
+    out->left_line = number;
+    out->left_text = sb_printable(text->str, text->len);
+  }
+}
+
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues) {
   *out = (SbTextTableRows){0};
@@ -78,24 +88,29 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   const GString *text;
   // A row has two bytes at least. Memory that is not written to does not count.
   const size_t room = MIN(lines->length / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
-  size_t begun = 0; // blocks behind blank lines
+  size_t begun = 0; // blocks behind blank lines or names
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
   }
-  bool blank = false, other = false;
+  bool blank = false, cut = false, other = false;
   sb_text_table_seek(lines, 0);
   while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
     Line line = {0};
     if ((size_t)lines->number <= table->header_lines) {
+      if (sb_text_table_is_row(table, text)) {
+        leave_line(out, lines->number, text, false);
+      }
       continue;
-    } else if (text->len > 0 && strspn(text->str, "#%!") == 0) {
+    }
+    if (text->len > 0 && strspn(text->str, "#%!") == 0) {
       wrong = read_line(&line, row, days, table, column, count, text);
     }
-    begun += blank && line.cells > 0;
     other = line.cells != table->columns && (other || (blank && line.cells > 0));
-    blank = line.cells == 0;
     const bool like = line.good && line.any && !other;
+    blank = line.cells == 0;
+    begun += like && (cut || block.headed);
+    cut = !like && (cut || blank);
     sb_text_table_block_next(&block, like, text, table);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
       wrong = wrong == NULL && out->rows == room ? "has too many rows" : wrong;
@@ -106,12 +121,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     } else if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
       const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
-      *(damaged ? &out->damaged : &out->skipped) += 1;
-      if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
-        g_free(out->left_text);
-        out->left_line = lines->number;
-        out->left_text = sb_printable(text->str, text->len);
-      }
+      leave_line(out, lines->number, text, damaged);
     }
   }
   wrong = wrong != NULL ? wrong : lines->wrong;
@@ -154,29 +164,45 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
   SbTextTableLines *lines = &table->file->lines;
+  SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const GString *text;
   const char *wrong = NULL;
   bool good = true;
   sb_text_table_seek(lines, 0);
   while (good && wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
-    if ((size_t)lines->number <= table->header_lines || text->len == 0 ||
-        strspn(text->str, "#%!") > 0) {
-      continue;
-    }
+    const bool above = (size_t)lines->number <= table->header_lines, headed = block.headed;
     const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;
-    const gssize count = append_cells(out->value, text, columns, most, &table->dialect);
-    if (count > 0) {
+    const guint begin = out->value->len;
+    const bool data = text->len > 0 && strspn(text->str, "#%!") == 0;
+    const gssize count = data ? append_cells(out->value, text, columns, most, &table->dialect) : 0;
+    if (!above && (count != 0 || text->len == 0)) {
+      sb_text_table_block_next(&block, count > 0, text, table);
+    }
+    const bool other = above || g_strcmp0(block.names, table->file->names) != 0;
+    if (count > 0 && other) {
+      out->other_line = out->other == 0 ? lines->number : out->other_line;
+      out->other++;
+    } else if (count > 0) {
       out->columns = out->rows == 0 ? (size_t)count : out->columns;
       out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines->number : out->ragged;
       out->rows++;
     }
-    if (count < 0) {
+    g_array_set_size(out->value, other || count < 0 ? begin : out->value->len);
+    if (!above && ((count < 0 && !block.headed) || (count > 0 && headed && !other))) {
       g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
-      good = sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL,
-                           "numbers expected, not \"%s\"", shown);
-    } else if ((size_t)count > most || out->value->len > 3 * most) {
+      good = sb_issues_add(
+          issues, table->file->shown, lines->number, NULL, NULL,
+          count < 0 ? "numbers expected, not \"%s\"" : "begins the table again: \"%s\"", shown);
+    } else if ((count > 0 && (size_t)count > most) || out->value->len > 3 * most) {
       wrong = "has too many numbers";
     }
+  }
+  g_free(block.names);
+  if (good && wrong == NULL && 2 * out->other >= out->rows) {
+    good = sb_issues_add(
+        issues, table->file->shown, out->other_line, NULL, NULL,
+        "%zu rows of numbers are another table than the %zu of the longest: remove one", out->other,
+        out->rows);
   }
   wrong = wrong != NULL ? wrong : lines->wrong;
   if (good && wrong != NULL) {

@@ -99,12 +99,9 @@ static void check_measured(Check *check) {
     return;
   }
   check->kind = "measured table";
-  if (check->measured->dropped > 0) {
-    sb_issues_add(
-        check->issues[SEVERITY_WARNING], check->shown, 0, NULL, NULL,
-        "%zu rows are left out: a cell is empty or unreadable, or they do not continue the "
-        "table at a blank line",
-        check->measured->dropped);
+  g_autofree char *doubts = sb_measured_doubts(check->measured);
+  if (doubts != NULL) {
+    sb_issues_add(check->issues[SEVERITY_WARNING], check->shown, 0, NULL, NULL, "%s", doubts);
   }
 }
 

@@ -6,8 +6,9 @@
 #include <math.h>
 #include <string.h>
 
-#define SPEED_MAX 10.0 // of a test machine [m/s]
-enum { ROWS_MIN = 8 }; // of a loop
+#define SPEED_MAX 10.0                                        // of a test machine [m/s]
+enum { ROWS_MIN = 8 };                                        // of a loop
+#define CYCLE "cy[ck]l|zykl|ciclo|\\bloop|цикл|循环|サイクル" // in a line above a cycle
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -45,12 +46,23 @@ static bool name_fits(const char *name, SbChannel channel) {
   return g_regex_match_simple(channels[channel].words, spaced, G_REGEX_CASELESS, 0);
 }
 
+// Returns the unit without a number before it ("x10 N", "0.1 s"), which is *factor; else 1.
+static const char *skip_factor(double *factor, const char *unit) {
+  const char *c = unit + strspn(unit, "x*\xc3\x97 ");
+  const size_t length = g_ascii_isdigit(*c) || *c == '.' ? sb_number_read(factor, c) : 0;
+  *factor = length > 0 ? *factor : 1;
+  return length > 0 ? c + length + strspn(c + length, " ") : unit;
+}
+
 static bool unit_scale(double *scale, const char *unit, SbChannel channel) {
-  const char *si = channels[channel].si;
-  g_autofree char *force = g_strconcat(unit, "f", NULL); // "g" of a force is gram-force
-  return *unit != '\0' &&
-         (sb_unit_scale(scale, unit, si, si, NULL) ||
-          (channel == SB_CHANNEL_FORCE && sb_unit_scale(scale, force, si, si, NULL)));
+  double factor;
+  const char *si = channels[channel].si, *plain = skip_factor(&factor, unit);
+  g_autofree char *force = g_strconcat(plain, "f", NULL); // "g" of a force is gram-force
+  const bool good = *plain != '\0' && factor > 0 &&
+                    (sb_unit_scale(scale, plain, si, si, NULL) ||
+                     (channel == SB_CHANNEL_FORCE && sb_unit_scale(scale, force, si, si, NULL)));
+  *scale *= good ? factor : 1;
+  return good;
 }
 
 // Columns and units that keys name, into the table.
@@ -247,14 +259,29 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   for (int c = 0; c < SB_CHANNELS; c++) {
     const char *unit = m->column[c].unit;
     scale[c] = 1;
-    if (unit != NULL && !m->column[c].clock && !unit_scale(&scale[c], unit, (SbChannel)c)) {
-      const bool none = *unit == '\0';
+    if (unit == NULL || m->column[c].clock) {
+      continue;
+    }
+    // The number may be the unit's, or a remark; a key states which.
+    double factor;
+    const bool good = unit_scale(&scale[c], unit, (SbChannel)c);
+    const char *plain = skip_factor(&factor, unit);
+    const bool number = good && plain != unit && data->text[SB_DATA_UNITS] == NULL;
+    if (!good || number) {
+      char size[SB_NUMBER_SIZE];
+      g_autofree char *both =
+          g_strdup_printf("%s %s\n%s", sb_number_format(size, factor), plain, plain);
       g_autofree char *layout = sb_measured_layout(m, true);
-      g_autofree char *all = sb_choice_layouts(layout, BIT(m->column[c].at - 1), channels[c].units);
-      return sb_data_add_choice(
-          data, SB_DATA_UNITS, all, issues, "column %zu \"%s\" (%s) has %s%s%s", m->column[c].at,
-          m->column[c].name, sb_channel_names[c], none ? "no unit" : "the unit \"", unit,
-          none ? "" : "\", which is none of its kind");
+      g_autofree char *all =
+          sb_choice_layouts(layout, BIT(m->column[c].at - 1), number ? both : channels[c].units);
+      const bool none = *unit == '\0';
+      return sb_data_add_choice(data, SB_DATA_UNITS, none || number ? all : NULL, issues,
+                                "column %zu \"%s\" (%s) has %s%s%s", m->column[c].at,
+                                m->column[c].name, sb_channel_names[c],
+                                none ? "no unit" : "the unit \"", unit,
+                                none     ? ""
+                                : number ? "\", of which the number may be a remark"
+                                         : "\", which is none of its kind");
     }
   }
   return true;
@@ -262,9 +289,11 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
 
 // ---- Rows ----
 
-// Makes the forces of blocks behind a blank line that do not continue the table not a number. Two
-// of these are true of them: the time goes back; the displacement jumps further than between rows
-// of a long block; there are too few rows for a loop. The shorter side of the line is dropped.
+// Makes the forces of blocks behind a blank line or names that do not continue the table not a
+// number. Two of these are true of them: the time goes back; the displacement jumps further than
+// between rows of a long block; there are too few rows for a loop. The shorter side of the line is
+// dropped. A block whose time goes back, or a long one without time whose displacement does, is
+// another test, unless a line calls it a cycle.
 static void drop_blocks(SbMeasured *m, const double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0;
@@ -273,6 +302,8 @@ static void drop_blocks(SbMeasured *m, const double *block) {
   for (size_t i = most; place != NULL && i < m->count; i++) {
     step = block[i] == block[i - most] ? fmax(step, fabs(place[i] - place[i - 1])) : step;
   }
+  const char *line = m->lines.left_text != NULL ? m->lines.left_text : "";
+  const bool cycles = g_regex_match_simple(CYCLE, line, G_REGEX_CASELESS, 0);
   for (size_t i = 0, end, kept = 0, last = 0; i < m->count; i = end) {
     for (end = i + 1; end < m->count && block[end] == block[i];) {
       end++;
@@ -285,6 +316,10 @@ static void drop_blocks(SbMeasured *m, const double *block) {
       m->force[k] = NAN;
     }
     m->jumps |= (back || jump) && !apart;
+    const bool again = time == NULL && place != NULL && MIN(kept, end - i) >= ROWS_MIN &&
+                       2 * (end - i) >= kept &&
+                       fabs(place[i] - place[0]) <= fabs(place[i] - place[last]);
+    m->tests += (back || again) && !apart && !cycles;
     kept = apart ? MAX(kept, end - i) : kept + end - i;
     last = apart && !before ? last : end - 1;
   }

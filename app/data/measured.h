@@ -66,7 +66,8 @@ typedef struct {
   // Rows, in the order of the file. Displacement and force are corrected as above.
   size_t count;   // rows in use
   size_t dropped; // rows with an empty or unreadable cell, or that do not continue the table
-  bool jumps;     // behind a blank line time or displacement jumps, and yet the rows are in use
+  size_t tests;   // further tests below the first one, whose rows are in use with `cycle` alone
+  bool jumps; // at a blank line or names time or displacement jumps, and yet the rows are in use
   union {
     struct {
       double *time;         // [count] [s]; NULL: no such column
@@ -111,6 +112,10 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbMeasured, sb_measured_free)
 // Returns what was found, for the user, several lines that end with a newline: "separator
 // semicolon, decimal comma, utf-8, 3 header lines".
 char *sb_measured_text(const SbMeasured *measured);
+
+// Returns what of the file is left out or in doubt, for the user, in one line. NULL: nothing. Freed
+// by g_free().
+char *sb_measured_doubts(const SbMeasured *measured);
 
 // Returns what was found as lines "key = value" of a group [data], which fix it for the next time
 // that the file is read.

@@ -1,6 +1,7 @@
 // Keys of measured data: reads what they choose, and writes what was recognised; see measured.h.
 #include "app/data/measured_private.h"
 
+#include <math.h>
 #include <string.h>
 
 // Characters of the keys `separator` and `decimal`; the first one, of an absent key, is to be
@@ -64,6 +65,34 @@ char *sb_measured_keys(const SbMeasured *m) {
   return g_string_free(out, FALSE);
 }
 
+char *sb_measured_doubts(const SbMeasured *m) {
+  GString *out = g_string_new(NULL);
+  if (m->specimens > 1) {
+    g_string_append_printf(
+        out, "; %zu specimens side by side: the first is used, `columns` selects another",
+        m->specimens);
+  }
+  if (m->tests > 0) {
+    g_string_append_printf(
+        out,
+        "; %zu tests one below the other: the first is used unless `cycle` selects another or all",
+        m->tests + 1);
+  }
+  if (m->dropped > 0) {
+    g_string_append_printf(out,
+                           "; %zu rows are dropped: a cell is empty or cannot be read, or they do "
+                           "not continue the table at a blank line or names",
+                           m->dropped);
+  }
+  if (m->lines.skipped > 0) {
+    g_string_append_printf(out, "; %zu other lines are left out (line %d: \"%s\")",
+                           m->lines.skipped, m->lines.left_line, m->lines.left_text);
+  }
+  g_string_append(out, m->jumps ? "; time or displacement jumps at a blank line or names" : "");
+  g_string_erase(out, 0, out->len > 0 ? 2 : 0);
+  return g_string_free(out, out->len == 0);
+}
+
 char *sb_measured_text(const SbMeasured *m) {
   static const char *const hows[] = {"not in the data, used unchanged", "found", "as specified"};
   GString *out = g_string_new(NULL);
@@ -78,11 +107,6 @@ char *sb_measured_text(const SbMeasured *m) {
                              hows[m->column[c].how]);
     }
   }
-  if (m->specimens > 1) {
-    g_string_append_printf(
-        out, "%zu specimens side by side: the first is used, `columns` selects another\n",
-        m->specimens);
-  }
   if (m->speed > 0) {
     g_autofree char *speed = sb_quantity_format(m->speed, "m/s", "mm/min");
     g_string_append_printf(
@@ -93,21 +117,11 @@ char *sb_measured_text(const SbMeasured *m) {
   if (m->behind > 0) {
     g_string_append_printf(out, ", %zu after the first cycle left out", m->behind);
   }
-  if (m->dropped > 0) {
-    g_string_append_printf(out,
-                           ", %zu dropped: a cell is empty or cannot be read, or the rows "
-                           "do not continue the table at a blank line",
-                           m->dropped);
-  }
-  if (m->lines.skipped > 0) {
-    g_string_append_printf(out, ", %zu lines between them are not rows (line %d: \"%s\")",
-                           m->lines.skipped, m->lines.left_line, m->lines.left_text);
-  }
   char digits[3][SB_NUMBER_SIZE];
-  g_autofree char *cycle = cycle_of(m);
-  g_string_append_printf(out, "%s\n%u cycles, %s%s used\n",
-                         m->jumps ? ", time or displacement jumps at a blank line" : "",
-                         m->cycle->len, *cycle == 'a' ? "" : "number ", cycle);
+  g_autofree char *cycle = cycle_of(m), *doubts = sb_measured_doubts(m);
+  g_string_append_printf(out, "%s%s\n%u cycles, %s%s used\n", doubts != NULL ? "; " : "",
+                         doubts != NULL ? doubts : "", m->cycle->len,
+                         *cycle == 'a' ? "" : "number ", cycle);
   g_string_append_printf(out, "reversed: %s (%s)\nat rest %s mm (%s), without load %s N (%s)\n",
                          m->turned_force || m->turned_displacement
                              ? sb_data_directions[m->turned_force + 2 * m->turned_displacement]
@@ -115,8 +129,9 @@ char *sb_measured_text(const SbMeasured *m) {
                          hows[m->direction], sb_number_round(digits[0], m->at_rest * 1e3, 6),
                          hows[m->zero], sb_number_round(digits[1], m->no_load, 5),
                          hows[m->force_zero]);
-  g_string_append_printf(out, "compliance %s um/N (%s), noise %s N\n",
+  g_string_append_printf(out, "compliance %s um/N (%s), noise %s\n",
                          sb_number_round(digits[0], m->slope * 1e6, 4), hows[m->compliance],
-                         sb_number_round(digits[1], m->noise, 3));
+                         isfinite(m->noise) ? strcat(sb_number_round(digits[1], m->noise, 3), " N")
+                                            : "not found");
   return g_string_free(out, FALSE);
 }

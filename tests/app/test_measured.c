@@ -277,6 +277,18 @@ static void test_habits(void) {
        "OVER,OVER,OVER\n,,\nNo,Peak (N),Ext (mm)\n1,900.0,800.0\n", '.', 1, 1},
       {"No. Peak (N) Ext (mm)\n1 35.1 16.2\nTime (s) Ext (mm) Load (N)\n", "@t @x @f\n",
        "end of test\n", '.', 1, 1},
+      // Blocks with the same names and other units; names again without units; of a comment.
+      {"Time,Ext,Load\n(s),(mm),(kN)\n0,0,900\n1,1,900\n\nTime,Ext,Load\n(s),(mm),(N)\n0,0,\n"
+       "Time,Ext,Load\n",
+       "@t,@x,@f\n", "Time,Ext,Load\n(s),(um),(N)\n1,900,1\n2,900,1\n", '.', 1, 1},
+      {"# t [s]; s [mm]; F [N]\n", "@t;@x;@f\n", "# t [s]; s [mm]; F [kN]\n1;900;1\n2;800;1\n", '.',
+       1, 1},
+      {"Operator;Miller\nZeit;Weg;Kraft\ns;mm;N\n", "@t;@x;@f\n",
+       "s;mm;kN\n1;900;1\ns;mm;N\n;;\nOperator;Miller\nZeit;Weg;Kraft\ns;mm;kN\n1;900;1\n", ',', 1,
+       1},
+      // A label before the names, ends of lines in quotes.
+      {"# test\n# columns: time[s] displacement[mm] force[N]\n", "@t @x @f\n", "", '.', 1, 1},
+      {"\"Time\n(s)\",\"Extension\nby LVDT\n(mm)\",\"Load\n(N)\"\n", "@t,@x,@f\n", "", '.', 1, 1},
       // No value in the last column of the first row.
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,\n", "@t,@x,@f\n", "", '.', 1, 1},
       {"Time (s),Ext (mm),Load (N)\n0.00,0.0,OVER\n", "@t,@x,@f\n", "", '.', 1, 1},
@@ -309,6 +321,7 @@ static void test_habits(void) {
       read_habit(&(Habit){"Time (s),Position (mm),Force (N)\n", "@t,@x,@f\n", "", '.', 1, 1});
   for (size_t i = 0; i < G_N_ELEMENTS(habits); i++) {
     g_autoptr(SbMeasured) other = read_habit(&habits[i]);
+    g_test_message("habit %zu", i);
     g_assert_cmpuint(other->count, ==, ROWS);
     // Roundings of a row's five digits, of those of the zero and of the slope.
     const double force = 2e-5 / habits[i].force_scale + 2e-5;
@@ -390,6 +403,15 @@ static void test_refused(void) {
        SB_DATA_SPEED},
       {"Weg [km];Kraft [N]\n0.1;1.5\n0.2;1.6\n", NULL, "row 1 has a displacement of 100 m",
        SB_DATA_FILE},
+      {"Weg [mm];Kraft [MN]\n0.1;0.1\n0.2;1.6\n", NULL, "row 2 has a force of 1.6e+06 N",
+       SB_DATA_FILE},
+      {"Weg [mm];Kraft [dyn]\n0.1;1.5\n0.2;1.6\n", NULL, "\"dyn\", which is none of its kind",
+       SB_DATA_FILE},
+      {"Weg [mm];Kraft [x10 N]\n0.1;1.5\n0.2;2e4\n", "mm, 10 N", "row 2 has a force of 200000 N",
+       SB_DATA_UNITS},
+      {"PK\x03\x04\nA [mm];F [N]\n1;1\n2;2\n", NULL, "is a workbook (.xlsx, .ods)", SB_DATA_FILE},
+      {"<table>\nA [mm];F [N]\n1;1\n2;2\n", NULL, "is HTML or XML: export it as text",
+       SB_DATA_FILE},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -429,6 +451,8 @@ static void test_choices(void) {
       {"Weg [mm];Kraft\n0.1;1.5\n0.2;1.6\n0.3;1.7\n", "units",
        "mm, N\nmm, kN\nmm, gf\nmm, kgf\nmm, lbf"},
       {"Time [s];Kraft [N]\n0;1.5\n1;1.6\n2;1\n", "speed", ""},
+      {"Zeit [0.1 s];Weg [mm];Kraft [N]\n0;0;1.5\n1;1;1.6\n2;1;1\n", "units",
+       "0.1 s, mm, N\ns, mm, N"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
@@ -514,28 +538,34 @@ static void test_settled(void) {
 // Numbers behind a blank line that do not continue the table are dropped, and counted; a cycle
 // with a clock of its own, pages and lines apart are read.
 static void test_blocks(void) {
+#define HEAD "Zeit [s];Weg [mm];Kraft [N]\n"
+#define LOOP "0;0;20\n1;1;20\n2;2;20\n3;3;20\n4;4;20\n5;3;5\n6;2;5\n7;0;5\n"
   enum { HALF = 40, COUNT = 2 * HALF + 1 };
   static const struct {
     const char *head, *tail; // before and behind the rows
     int every;               // rows between blank lines; 0: no blank line
     size_t rows, dropped;
     bool jumps, timeless;
+    size_t tests; // below the first one
   } cases[] = {
-      {"", "", 0, COUNT, 0, false, false},
-      {"", "", 1, COUNT, 0, false, false},
-      {"", "", 7, COUNT, 0, false, false},
-      {"", "", 7, COUNT, 0, false, true},
-      {"", "\n8,1;9,75;20,0\n0,1;0,0;5,0\n", 0, COUNT, 2, false, false},
-      {"", ";;\n;;\n4,1;0,0;20,0\n", 0, COUNT, 1, false, false},
-      {"", "\n9,75;20,0\n0,0;5,0\n", 0, COUNT, 2, false, false},
-      {"", "\n9,75\n", 7, COUNT, 1, false, false},
-      {"", "\n;9,75;20,0\n", 0, COUNT, 1, false, true},
-      {"8,1;9,75;20,0\n0,1;0,0;5,0\n\n", "", 0, COUNT, 2, false, false},
-      {"", "\n9,9;9,75;20,0\n9,9;8,0;5,0\n", 0, COUNT, 2, false, false},
-      {"", "\n0;0;20\n1;1;20\n2;2;20\n3;3;20\n4;4;20\n5;3;5\n6;2;5\n7;0;5\n", 0, COUNT + 8, 0, true,
-       false},
+      {"", "", 0, COUNT, 0, false, false, 0},
+      {"", "", 1, COUNT, 0, false, false, 0},
+      {"", "", 7, COUNT, 0, false, false, 0},
+      {"", "", 7, COUNT, 0, false, true, 0},
+      {"", "\n8,1;9,75;20,0\n0,1;0,0;5,0\n", 0, COUNT, 2, false, false, 0},
+      {"", ";;\n;;\n4,1;0,0;20,0\n", 0, COUNT, 1, false, false, 0},
+      {"", "\n9,75;20,0\n0,0;5,0\n", 0, COUNT, 2, false, false, 0},
+      {"", "\n9,75\n", 7, COUNT, 1, false, false, 0},
+      {"", "\n;9,75;20,0\n", 0, COUNT, 1, false, true, 0},
+      {"8,1;9,75;20,0\n0,1;0,0;5,0\n\n", "", 0, COUNT, 2, false, false, 0},
+      {"", "\n9,9;9,75;20,0\n9,9;8,0;5,0\n", 0, COUNT, 2, false, false, 0},
+      {"", "\n" LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", "\nProbe 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", "\nZyklus 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 0},
+      {"0;0;1\n1;9;2\n" HEAD, "", 0, COUNT, 2, false, false, 0},
       {"", "\n0;7;20\n1;6;20\n2;7;20\n3;6;20\n4;7;20\n5;6;5\n6;7;5\n7;6;5\n", 0, COUNT, 8, false,
-       false},
+       false, 0},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GString) text = g_string_new(cases[i].timeless ? "n;Weg [mm];Kraft [N]\n"
@@ -559,6 +589,9 @@ static void test_blocks(void) {
     g_autofree char *words = sb_measured_text(m);
     g_assert_true((strstr(words, "continue the table") != NULL) == (cases[i].dropped > 0));
     g_assert_true((strstr(words, "jumps at a blank line") != NULL) == cases[i].jumps);
+    g_assert_cmpuint(m->tests, ==, cases[i].tests);
+    g_assert_cmpuint(m->last, ==, cases[i].tests > 0 ? 0 : m->cycle->len - 1);
+    g_assert_true((strstr(words, "one below the other") != NULL) == (cases[i].tests > 0));
   }
 }
 

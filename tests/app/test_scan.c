@@ -93,7 +93,7 @@ static void test_gwy(void) {
   sb_scan_clear(&scan);
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "9"}, "not lengths");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.channel = "4"},
-                 "no channel 4 (there are 0 \"Topography 0\", 9)");
+                 "no channel 4 (numbers and titles: 0 \"Topography 0\", 9)");
   assert_refused((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "--unit");
   assert_chosen((char *)bytes->data, bytes->len, &(SbScanChoices){.unit = 1}, "unit", "");
   assert_chosen((char *)bytes->data, bytes->len, &(SbScanChoices){.lateral_unit = 1},
@@ -283,6 +283,30 @@ static void test_matrix(void) {
   assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
                  "line 18 has not 20 numbers");
   g_string_free(text, TRUE);
+  // A row of other numbers above, and results behind; but not another matrix, and no damaged row.
+  text = matrix("1;2;3\n", "\t", '.', "nan");
+  g_string_append(text, "\nSq = 0.76 um\n");
+  assert_text(text, &(SbScanChoices){.unit = 1e-9, .spacing = 0.5e-6}, &h);
+  GString *twice = g_string_new_len(text->str, (gssize)text->len);
+  g_string_append(twice, text->str + strlen("1;2;3\n"));
+  assert_refused(twice->str, twice->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
+                 "are another table");
+  g_string_free(twice, TRUE);
+  text->str[text->len / 2] = 'x';
+  assert_refused(text->str, text->len, &(SbScanChoices){.unit = 1e-9, .spacing = 1e-6},
+                 "numbers expected");
+  g_string_free(text, TRUE);
+  // Marks between thousands, in quotes or next to a decimal mark.
+  static const char *const grouped[] = {"1,000.5;2,000.5\n3,000.5;4,000.5\n",
+                                        "\"1,000,000\",\"2,000\"\n3,\"4,000\"\n"};
+  for (size_t i = 0; i < G_N_ELEMENTS(grouped); i++) {
+    SbScan scan;
+    g_assert_true(sb_scan_parse(&scan, grouped[i], strlen(grouped[i]),
+                                &(SbScanChoices){.unit = 1, .spacing = 1, .lateral_unit = 1},
+                                "scan", NULL));
+    g_assert_cmpfloat(scan.heights.z[1], ==, i == 0 ? 4000.5 : 4000);
+    sb_scan_clear(&scan);
+  }
   // Positions in front of the heights and above them are no heights.
   text = g_string_new("0");
   for (int i = -1; i < ROWS; i++) {
@@ -299,6 +323,19 @@ static void test_matrix(void) {
   g_string_truncate(text, text->len - 100);
   assert_refused(text->str, text->len, &plain, "numbers where the header announces 20 x 17");
   g_string_free(text, TRUE);
+}
+
+// A line that may multiply the heights, but does not, is named.
+static void test_resolution(void) {
+  SbScan scan;
+  static const char text[] =
+      "dx: 1 um\ndy: 1 um\nZ resolution: 2 nm\nZ unit: nm\n1 2 3 4\n2 3 4 1\n";
+  g_assert_true(sb_scan_parse(&scan, text, strlen(text), &plain, "scan", NULL));
+  g_assert_cmpuint(scan.notes->len, ==, 1);
+  g_assert_cmpstr(scan.notes->pdata[0], ==,
+                  "line 3: \"z resolution\" 2 nm does not multiply the heights");
+  g_assert_cmpfloat_with_epsilon(scan.heights.z[1], 2e-9, 1e-20);
+  sb_scan_clear(&scan);
 }
 
 // Commas that separate numbers and are their decimal marks too: zeros before other digits or a line
@@ -522,6 +559,53 @@ static void test_points(void) {
   }
 }
 
+// Columns by their names, in any order and next to others, and results before and behind them.
+static void test_named(void) {
+  static const struct {
+    const char *head, *row, *tail; // x, y, z of a row as 1, 2, 3; 4 is its number
+    const char *refused;           // NULL: read
+  } cases[] = {
+      {"Y [um];X [um];Z [nm]\n", "2;1;3", "", NULL},
+      {"Height (nm),X-Position (um),Y-Position (um)\n", "3,1,2", "", NULL},
+      {"i;j;x [um];y [um];z [nm]\n", "4;4;1;2;3", "", NULL},
+      {"x [um],y [um],z [nm],I\n", "1,2,3,4", "", NULL},
+      {"x [um],Quer [um],z [nm]\n", "1,2,3", "", NULL},
+      {"No,Sa (nm),Sq (nm)\n1,0.6,0.76\n2,0.61,0.77\nX (um),Y (um),Z (nm)\n", "1,2,3", "", NULL},
+      {"x_um;y_um;z_nm\n", "1;2;3", "\nSa;0.6;nm\n\nNo;Sa;Sq\n1;2;3\n", NULL},
+      {"x;z [nm];z 2 [nm]\n", "1;3;4", "", "columns 2 and 3 may both be z"},
+      {"i;x [um];y [um];z [nm]\n", "4;1;4;3", "", "form no grid"},
+      {"x [um];y [um];z [nm]\n", "1;2;3", "\nx [um];y [um];z [nm]\n1;2;3\n", "the table again"},
+      {"x [um];y [um];z [nm]\n", "1;2;3", "over;over;3\n1;2;3\n", "numbers expected"},
+  };
+  const SbHeights h = written();
+  for (size_t c = 0; c < G_N_ELEMENTS(cases); c++) {
+    GString *text = g_string_new(cases[c].head);
+    for (int k = 0; k < COLUMNS * ROWS; k++) {
+      for (const char *at = cases[c].row; *at != '\0' && !isnan(height[k]); at++) {
+        const int i = k / COLUMNS, j = k % COLUMNS;
+        if (*at < '1' || *at > '4') {
+          g_string_append_c(text, *at);
+        } else {
+          g_string_append_printf(text, "%.3f",
+                                 *at == '1'   ? 0.5 * j
+                                 : *at == '2' ? 2.0 * i
+                                 : *at == '3' ? 1e9 * height[k]
+                                              : k);
+        }
+      }
+      g_string_append(text, isnan(height[k]) ? "" : "\n");
+    }
+    g_string_append(text, cases[c].tail);
+    g_test_message("case %zu", c);
+    if (cases[c].refused != NULL) {
+      assert_refused(text->str, text->len, &plain, cases[c].refused);
+    } else {
+      assert_text(text, &plain, &h);
+    }
+    g_string_free(text, TRUE);
+  }
+}
+
 static void test_profile(void) {
   SbHeights h = written();
   h.rows = 1;
@@ -614,11 +698,13 @@ int main(int argc, char **argv) {
   g_test_add_func("/scan/sur", test_sur);
   g_test_add_func("/scan/x3p", test_x3p);
   g_test_add_func("/scan/matrix", test_matrix);
+  g_test_add_func("/scan/resolution", test_resolution);
   g_test_add_func("/scan/commas", test_commas);
   g_test_add_func("/scan/sdf", test_sdf);
   g_test_add_func("/scan/headers", test_headers);
   g_test_add_func("/scan/lengths", test_lengths);
   g_test_add_func("/scan/points", test_points);
+  g_test_add_func("/scan/named", test_named);
   g_test_add_func("/scan/profile", test_profile);
   g_test_add_func("/scan/numbers", test_numbers);
   g_test_add_func("/scan/refused", test_refused);

@@ -9,8 +9,9 @@
 // A step may differ by this part of the mean one: coordinates are rounded.
 static const double uneven_max = 0.02;
 
-static double at(const SbScanText *text, gsize row, gsize column) {
-  return g_array_index(text->matrix.value, double, row * text->matrix.columns + column);
+// The number of a row for an axis in use.
+static double at(const SbScanText *text, gsize row, gsize axis) {
+  return g_array_index(text->matrix.value, double, row * text->matrix.columns + text->use[axis]);
 }
 
 // Even places along an axis; count 0 where there are none.
@@ -49,8 +50,9 @@ static Axis find_axis(const SbScanText *text, gsize first, gsize stride, gsize r
 
 bool sb_scan_is_grid(const SbScanText *text) {
   // Of a matrix of three columns the first two do not repeat themselves evenly.
-  const gsize rows = text->matrix.rows;
-  const Axis x = find_axis(text, 0, 3, rows), y = find_axis(text, 1, 3, rows);
+  const gsize rows = text->matrix.rows, columns = text->matrix.columns;
+  const Axis x = find_axis(text, text->use[0], columns, rows);
+  const Axis y = find_axis(text, text->use[1], columns, rows);
   return x.count > 1 && y.count > 1 && x.count < rows && y.count < rows &&
          (double)x.count * (double)y.count <= 4.0 * (double)rows;
 }
@@ -70,8 +72,9 @@ const char *sb_scan_placed(const SbScanText *text, bool announced) {
 
 bool sb_scan_grid(SbScan *out, const SbScanText *text, double lateral, double vertical,
                   GError **error) {
-  const gsize rows = text->matrix.rows;
-  const Axis x = find_axis(text, 0, 3, rows), y = find_axis(text, 1, 3, rows);
+  const gsize rows = text->matrix.rows, columns = text->matrix.columns;
+  const Axis x = find_axis(text, text->use[0], columns, rows);
+  const Axis y = find_axis(text, text->use[1], columns, rows);
   if (!sb_scan_allocate(out, x.count, y.count, error)) {
     return false;
   }
@@ -100,10 +103,10 @@ bool sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double
     return false;
   }
   for (gsize i = 0; i < rows; i++) {
-    out->heights.z[i] = vertical * at(text, i, text->matrix.columns - 1);
+    out->heights.z[i] = vertical * at(text, i, text->axes - 1);
   }
   const double step = rows > 1 ? (at(text, rows - 1, 0) - at(text, 0, 0)) / (double)(rows - 1) : 0;
-  for (gsize i = 1; i < rows && text->matrix.columns > 1; i++) {
+  for (gsize i = 1; i < rows && text->axes > 1; i++) {
     const double each = at(text, i, 0) - at(text, i - 1, 0);
     if (!(fabs(each - step) <= uneven_max * fabs(step)) || step == 0) {
       return sb_app_error_input(
@@ -111,6 +114,6 @@ bool sb_scan_profile(SbScan *out, const SbScanText *text, double lateral, double
           each, i + 1, step);
     }
   }
-  out->heights.dx = text->matrix.columns > 1 ? lateral * fabs(step) : 0;
+  out->heights.dx = text->axes > 1 ? lateral * fabs(step) : 0;
   return true;
 }

@@ -165,7 +165,7 @@ static long choose(Component *data, Component *title, const Component *container
     g_autofree char *number = g_strdup_printf("%ld", id);
     const char *text = (const char *)own.value;
     if (wanted != NULL ? strcmp(number, wanted) == 0 || g_strcmp0(text, wanted) == 0
-                       : read_field(&field, &each, NULL) && strcmp(field.unit_z, "m") == 0) {
+                       : read_field(&field, &each, NULL) && sb_scan_length(field.unit_z) > 0) {
       g_string_append_printf(fitting, "%s%s", count++ > 0 ? "\n" : "", number);
       found = id;
       *data = each;
@@ -182,8 +182,8 @@ static long choose(Component *data, Component *title, const Component *container
   } else if (count == 0 && list->len == 0) {
     sb_app_error_input(error, "has no data field");
   } else if (count == 0) {
-    sb_app_error_input(error, "has no channel %s (there are %s)",
-                       wanted != NULL ? wanted : "of heights", list->str);
+    sb_app_error_input(error, "has no channel %s (numbers and titles: %s)",
+                       wanted != NULL ? wanted : "of heights in a unit of length", list->str);
   }
   return count == 1 ? found : -1;
 }

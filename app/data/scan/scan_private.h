@@ -69,6 +69,7 @@ typedef struct {
   GPtrArray *entries;       // of SbScanEntry
   const SbTextTable *table; // its columns and their units
   SbTextTableMatrix matrix; // its numbers
+  gsize axes, use[3];       // columns in use: x, y, z; x, z; or z; above 3: a matrix
 } SbScanText;
 
 // Writes points with columns x, y, z to the grid that they form, for which sb_scan_is_grid()

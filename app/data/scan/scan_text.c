@@ -4,6 +4,7 @@
 #include "app/base/number.h"
 
 #include <math.h>
+#include <string.h>
 
 enum { ENTRIES_MAX = 1000 };
 
@@ -76,6 +77,61 @@ static const SbScanEntry *find_entry(const SbScanText *text, const char *key, bo
   return found;
 }
 
+// Finds the columns x, y and z by their names. Of two or three columns, those
+// with other names are the remaining ones in this order. False with an error if two columns may be
+// one of them, or if the places form no grid.
+static bool find_columns(SbScan *out, SbScanText *text, GError **error) {
+  static const char *const keys[] = {KEY_X, KEY_Y, KEY_Z};
+  const gsize columns = text->table->columns, none = SB_TEXT_TABLE_COLUMNS_MAX;
+  gsize use[3] = {none, none, none}, twice[3] = {none, none, none}, other[3], others = 0;
+  for (gsize i = 0; i < columns; i++) {
+    int axis = 0;
+    while (axis < 3 &&
+           !g_regex_match_simple(keys[axis], text->table->column[i].name, G_REGEX_CASELESS, 0)) {
+      axis++;
+    }
+    if (axis < 3) {
+      twice[axis] = use[axis];
+      use[axis] = i;
+    } else if (others < 3) {
+      other[others++] = i;
+    }
+  }
+  if (columns == 2 && use[1] < none && MIN(use[0], use[2]) < none) { // y over x, or z along y
+    use[use[2] < none ? 0 : 2] = use[1];
+    use[1] = none;
+  }
+  const bool few = columns <= 3, lone = columns == 2 && use[1] < none;
+  const bool between = use[1] == none && use[2] < none;
+  if (columns != text->matrix.columns || columns < 2 || lone ||
+      (few ? others == columns : MAX(use[0], use[2]) == none)) {
+    return true;
+  }
+  for (int axis = 0, next = 0; axis < 3; axis++) {
+    if (twice[axis] < none) {
+      return sb_app_error_input(error, "columns %zu and %zu may both be %c: remove one",
+                                twice[axis] + 1, use[axis] + 1, "xyz"[axis]);
+    }
+    if (few && use[axis] == none && (axis != 1 || columns == 3)) {
+      use[axis] = other[next++];
+    }
+  }
+  memcpy(text->use, use, sizeof use);
+  text->axes = use[1] < none ? 3 : 2;
+  if (text->axes == 3 && !sb_scan_is_grid(text)) {
+    if (!between) {
+      return sb_app_error_input(error, "x and y of its points form no grid of equal steps");
+    }
+    text->axes = 2;
+  }
+  text->use[1] = text->axes == 2 ? use[2] : use[1];
+  if (columns > text->axes || use[0] != 0 || text->use[1] != 1) {
+    sb_note_add(out->notes, "the columns are used by their names: x is number %zu, z number %zu",
+                use[0] + 1, use[2] + 1);
+  }
+  return true;
+}
+
 // What the header says of a matrix; NaN or 0 where it does not.
 typedef struct {
   double columns, rows;
@@ -122,13 +178,16 @@ static Header header_of(const SbScanText *text) {
 
 // Takes the factor of written heights, with its own unit or in the unit of heights. False with an
 // error if a line may state one, unless the caller specified the unit of the written numbers.
-static bool take_factor(Header *h, const SbScanText *text, const SbScanChoices *choices,
-                        GError **error) {
-  const SbScanEntry *factor = NULL, *doubt = NULL;
+static bool take_factor(Header *h, SbScan *out, const SbScanText *text,
+                        const SbScanChoices *choices, GError **error) {
+  const SbScanEntry *factor = NULL, *doubt = NULL, *resolution = NULL;
   for (guint i = 0; i < text->entries->len && factor == NULL; i++) {
     const SbScanEntry *entry = text->entries->pdata[i];
     if (isfinite(entry->number) && entry->number != 0 &&
-        !g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
+        g_regex_match_simple(KEY_RESOLUTION, entry->name, 0, 0)) {
+      resolution = entry;
+    } else if (isfinite(entry->number) && entry->number != 0 &&
+               !g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
       factor = g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
       doubt = doubt == NULL && entry->number != 1 &&
                       g_regex_match_simple(KEY_PERHAPS, entry->name, 0, 0)
@@ -141,6 +200,11 @@ static bool take_factor(Header *h, const SbScanText *text, const SbScanChoices *
                                "line %d: it is not clear whether \"%s\" multiplies the heights, "
                                "which decides the unit of the numbers",
                                doubt->line, doubt->name);
+  }
+  resolution = doubt != NULL ? doubt : resolution;
+  if (factor == NULL && resolution != NULL) {
+    sb_note_add(out->notes, "line %d: \"%s\" %s does not multiply the heights", resolution->line,
+                resolution->name, resolution->value);
   }
   h->factor = factor != NULL ? factor->number : NAN;
   h->vertical = factor != NULL && factor->unit > 0 ? factor->unit : h->vertical;
@@ -167,11 +231,11 @@ static bool settle_unit(double *unit, double column, double chosen, bool needed,
 // too, which a note states. Without any other, it is the unit of lengths. False with an error.
 static bool find_units(Header *h, SbScan *out, const SbScanText *text, const SbScanChoices *choices,
                        bool needs_lateral, GError **error) {
-  const gsize columns = text->matrix.columns;
+  const gsize columns = text->axes, *use = text->use;
   const SbTextTableColumn *column = text->table->column;
-  const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[0].unit) : 0;
-  const double y = columns == 3 ? sb_scan_length(column[1].unit) : 0;
-  const double z = columns <= 3 ? sb_scan_length(column[columns - 1].unit) : 0;
+  const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[use[0]].unit) : 0;
+  const double y = columns == 3 ? sb_scan_length(column[use[1]].unit) : 0;
+  const double z = columns <= 3 ? sb_scan_length(column[use[columns - 1]].unit) : 0;
   if (y > 0 && y != x) {
     return sb_app_error_input(error, "x and y have different units");
   }
@@ -209,12 +273,16 @@ static bool take_matrix(SbScan *out, const SbScanText *text, const Header *h, GE
   return true;
 }
 
-static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanChoices *choices,
+static bool read_entry_text(SbScan *out, SbScanText *text, const SbScanChoices *choices,
                             GError **error) {
   Header h = header_of(text);
   const SbScanEntry *title = find_entry(text, KEY_TITLE, false);
-  const gsize columns = text->matrix.columns;
-  const bool sized = isfinite(h.columns) || (columns > 2 && isfinite(h.step[0] + h.step[1]));
+  const bool sized =
+      isfinite(h.columns) || (text->matrix.columns > 2 && isfinite(h.step[0] + h.step[1]));
+  if (!sized && text->matrix.ragged == 0 && !find_columns(out, text, error)) {
+    return false;
+  }
+  const gsize columns = text->axes;
   const bool points = !sized && columns == 3 && text->matrix.ragged == 0 && sb_scan_is_grid(text);
   const bool matrix = sized || (columns > 2 && !points), spaced = choices->spacing > 0;
   out->title = *title->key != '\0' ? g_strdup(title->value) : NULL;
@@ -230,7 +298,7 @@ static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanCho
                                 text->matrix.value->len, h.columns, h.rows);
     }
   } else if (text->matrix.ragged > 0) {
-    return sb_app_error_input(error, "line %d has not %" G_GSIZE_FORMAT " numbers as the first",
+    return sb_app_error_input(error, "line %d has not %zu numbers as the first",
                               text->matrix.ragged, columns);
   }
   const char *placed = matrix ? sb_scan_placed(text, announced) : NULL;
@@ -241,14 +309,14 @@ static bool read_entry_text(SbScan *out, const SbScanText *text, const SbScanCho
                               placed);
   }
   const bool bare = !spaced && (h.bare[0] || (matrix && h.bare[1]));
-  if (!take_factor(&h, text, choices, error) ||
+  if (!take_factor(&h, out, text, choices, error) ||
       !find_units(&h, out, text, choices, matrix || columns == 1 ? bare : true, error)) {
     return false;
   }
   // Heights are in the last column; those at the end of single precision mark void points.
-  const gsize step = matrix ? 1 : columns;
+  const gsize step = matrix ? 1 : text->matrix.columns;
   const double low = 0x1p127 * (1 - 1e-4), high = 0x1p128;
-  for (gsize i = step - 1; i < text->matrix.value->len; i += step) {
+  for (gsize i = matrix ? 0 : text->use[columns - 1]; i < text->matrix.value->len; i += step) {
     double *z = &g_array_index(text->matrix.value, double, i);
     *z = *z == h.missing || (fabs(*z) >= low && fabs(*z) <= high) ? NAN : *z;
   }
@@ -271,7 +339,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
   g_autoptr(GPtrArray) entries = g_ptr_array_new_with_free_func(entry_free);
   g_autoptr(SbTextTable) table =
       sb_text_table_parse(bytes.at, (gsize)(bytes.end - bytes.at), &wish, "", issues);
-  SbScanText text = {.entries = entries, .table = table};
+  SbScanText text = {.entries = entries, .table = table, .use = {0, 1, 2}};
   const bool read = table != NULL &&
                     sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
   if (!read) {
@@ -285,6 +353,11 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
   for (int i = 0; table->header[i] != NULL && entries->len < ENTRIES_MAX; i++) {
     take_entry(entries, table->header[i], i + 1, &table->dialect);
   }
+  if (text.matrix.other > 0) {
+    sb_note_add(out->notes, "%zu rows of numbers are not read, as they are another table (line %d)",
+                text.matrix.other, text.matrix.other_line);
+  }
+  text.axes = text.matrix.columns;
   const bool good = read_entry_text(out, &text, choices, error);
   g_array_unref(text.matrix.value);
   return good;
