@@ -356,7 +356,7 @@ void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double 
     const bool sure = edge->times > 1 || (edge->inside[0] && edge->inside[1]) ||
                       (piece->bulge == 0 && fabs(piece->x1 - piece->x0) <= same);
     half->doubled -= edge->times - 1;
-    half->inner += edge->times == 1;
+    half->inner += sure && edge->times == 1;
     for (guint k = before; !sure && k < half->outlines->len; k++) {
       SbCadOutline *outline = half->outlines->pdata[k];
       outline->unsure = outline->unsure || outline->part == edge->part;
