@@ -47,10 +47,11 @@ static const KeyHint valve_hints[] = {
     {"␣", "Spc", N_("play")},   {"[ ]", NULL, N_("event")},   {"p", NULL, N_("pin")},
     {"m", NULL, N_("model")},   {"e", NULL, N_("effect")},    {"v", NULL, N_("verdict")},
     {"x", NULL, N_("export")},  {"?", NULL, N_("help")},      {"q", NULL, N_("quit")}};
-static const KeyHint design_hints[] = {
-    {"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("switch")}, {"⏎", "Enter", N_("compute")},
-    {"c", NULL, N_("cancel")},  {"a", NULL, N_("apply")},      {"e", NULL, N_("effect")},
-    {"u", NULL, N_("undo")},    {"?", NULL, N_("help")},       {"q", NULL, N_("quit")}};
+static const KeyHint design_hints[] = {{"↑↓", "Up/Dn", N_("row")},    {"←→", "Lf/Rt", N_("switch")},
+                                       {"⏎", "Enter", N_("compute")}, {"b", NULL, N_("bounds")},
+                                       {"c", NULL, N_("cancel")},     {"a", NULL, N_("apply")},
+                                       {"e", NULL, N_("effect")},     {"u", NULL, N_("undo")},
+                                       {"?", NULL, N_("help")},       {"q", NULL, N_("quit")}};
 static const KeyHint calibrate_hints[] = {
     {"↑↓", "Up/Dn", N_("row")}, {"←→", "Lf/Rt", N_("switch")}, {"⏎", "Enter", N_("compute")},
     {"c", NULL, N_("cancel")},  {"a", NULL, N_("apply")},      {"u", NULL, N_("undo")},
@@ -110,6 +111,7 @@ static void draw_keys(SbBench *bench, int y) {
 static void draw_question(SbBench *bench, int y) {
   const char *question = bench->input == SB_INPUT_SAVE     ? _("Save as: ")
                          : bench->input == SB_INPUT_EXPORT ? _("Export to, then a view: ")
+                         : bench->input == SB_INPUT_BOUNDS ? _("Bounds: ")
                                                            : _("Open: ");
   SbCells *cells = &bench->cells;
   const int x = 1 + sb_cells_text(cells, 1, y, cells->columns - 2, question,

@@ -2,10 +2,10 @@
 // and job are those of the window (app/session/design_ask.h, design_job.h).
 #include "app/terminal/workbench_private.h"
 
-#include "app/base/device.h"
 #include "app/base/figure_text.h"
 #include "app/base/translation.h"
 #include "app/base/unit.h"
+#include "app/document/typed.h"
 #include "app/export/design_map.h"
 #include "app/export/design_text.h"
 #include "app/session/kept_store.h"
@@ -166,6 +166,47 @@ static void change_request(SbBenchDesign *design, int step) {
   design->changed = true;
 }
 
+// Lets the user type the bounds of the selected parameter.
+static void type_bounds(SbBench *bench) {
+  const SbBenchDesign *design = &bench->design;
+  if (design->row < ROW_RANGES) {
+    sb_bench_status(bench, true, _("Bounds are of a parameter: choose its row."));
+    return;
+  }
+  const SbDesignRange *range = &design->ask.range[design->row - ROW_RANGES];
+  g_autofree char *low = sb_param_format(range->id, range->low);
+  g_autofree char *high = sb_param_format(range->id, range->high);
+  g_autofree char *text = g_strdup_printf("%s .. %s", low, high);
+  sb_bench_type(bench, SB_INPUT_BOUNDS, text);
+}
+
+void sb_bench_design_bounds(SbBench *bench, const char *text) {
+  SbBenchDesign *design = &bench->design;
+  if (design->row < ROW_RANGES) {
+    return; // another document was opened meanwhile
+  }
+  SbDesignRange *range = &design->ask.range[design->row - ROW_RANGES];
+  g_auto(GStrv) part = g_strsplit(text, "..", 2);
+  double end[2] = {range->low, range->high};
+  g_autoptr(GError) error = NULL;
+  for (int i = 0; i < 2; i++) {
+    g_autofree char *typed =
+        sb_typed_text(range->id, end[i], part[i] != NULL ? g_strstrip(part[i]) : "");
+    if (!sb_param_parse(&end[i], range->id, typed, &error)) {
+      break;
+    }
+  }
+  if (error != NULL || !(end[0] < end[1])) {
+    sb_bench_status(bench, true, "%s",
+                    error != NULL ? error->message : _("The minimum must be below the maximum."));
+    return;
+  }
+  range->low = end[0];
+  range->high = end[1];
+  range->free = true;
+  design->changed = true;
+}
+
 void sb_bench_design_key(SbBench *bench, const SbKey *key) {
   SbBenchDesign *design = &bench->design;
   const int last = ROW_RANGES + (int)design->ask.count - 1;
@@ -186,6 +227,8 @@ void sb_bench_design_key(SbBench *bench, const SbKey *key) {
   case SB_KEY_CHARACTER:
     if (key->character == 'a' && !key->control) {
       use_best(bench);
+    } else if (key->character == 'b' && !key->control) {
+      type_bounds(bench);
     }
     break;
   default:
@@ -399,19 +442,16 @@ static void draw_design_foot(SbBench *bench, const SbDesignAnswer *answer, SbCel
   g_autofree char *now = sb_document_sha256(sb_session_document(bench->session));
   const bool former = g_strcmp0(now, design->hash) != 0;
   g_autofree char *marks = sb_design_marks_text(answer);
-  g_autofree char *text = g_strdup_printf("%s%s\n%s",
-                                          former            ? _("of earlier values")
-                                          : design->changed ? _("of an earlier request")
-                                                            : "",
-                                          former || design->changed ? "\n" : "", design->said);
-  g_autofree char *all = g_strdup_printf("%s\n%s", text, marks != NULL ? marks : "");
+  const int said = former || design->changed; // number of its line
+  const char *state = former ? _("of earlier values") : said ? _("of an earlier request") : "";
+  g_autofree char *all = g_strdup_printf("%s%s%s\n%s", state, said ? "\n" : "", design->said,
+                                         marks != NULL ? marks : "");
   g_auto(GStrv) line = g_strsplit(all, "\n", 0);
   int y = rect.y;
   for (int i = 0; line[i] != NULL && y < rect.y + rect.height; i++) {
-    const bool warns = i != (former || design->changed ? 1 : 0);
     y += sb_cells_paragraph(&bench->cells,
                             (SbCellRect){rect.x, y, rect.width, rect.y + rect.height - y}, line[i],
-                            sb_bench_pen(bench, warns ? SB_ROLE_WARN : SB_ROLE_INK, 0));
+                            sb_bench_pen(bench, i != said ? SB_ROLE_WARN : SB_ROLE_INK, 0));
   }
 }
 

@@ -84,6 +84,9 @@ static void commit(SbBench *bench) {
   case SB_INPUT_EXPORT:
     sb_bench_export(bench, text);
     break;
+  case SB_INPUT_BOUNDS:
+    sb_bench_design_bounds(bench, text);
+    break;
   case SB_INPUT_OPEN:
     (void)sb_session_open(bench->session, text, issues);
     say_issues(bench, issues);

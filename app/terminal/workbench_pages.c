@@ -220,7 +220,7 @@ static const char *const help[] = {
     N_("f  i            field of the section, inset"),
     N_("v  w            verdict and warnings in words"),
     N_("1 2 3 4 5       valve, design, calibrate, propellants, studies"),
-    N_("⏎  c  a         there: compute, cancel, use the best design or the estimates"),
+    N_("⏎  c  a  b      there: compute, cancel, use the best design or the estimates, bounds"),
     N_("s  S  o         save, save as, open"),
     N_("x               export: .json, .txt of this screen, a picture or movie of a view"),
     N_("Ctrl-L          redraw the screen; Ctrl-Z suspend"),

@@ -43,6 +43,7 @@ typedef enum {
   SB_INPUT_SEARCH,
   SB_INPUT_SAVE,
   SB_INPUT_EXPORT,
+  SB_INPUT_BOUNDS, // of the selected parameter of the page Design
   SB_INPUT_OPEN
 } SbInput;
 
@@ -238,6 +239,10 @@ void sb_bench_design_follow(SbBench *bench);
 
 // Acts on a key of the page.
 void sb_bench_design_key(SbBench *bench, const SbKey *key);
+
+// Sets the bounds of the selected parameter from text that the user typed, "1.45 mm .. 1.77 mm",
+// and lets the search vary it. Shows a message if the text is wrong.
+void sb_bench_design_bounds(SbBench *bench, const char *text);
 
 // Shows the effects on the next figure of the page.
 void sb_bench_design_effect(SbBench *bench);

@@ -243,6 +243,17 @@ def test_design():
         terminal.keys('2')
         terminal.see('starts meet all limits', unlike='of earlier values')
 
+        # Other bounds, which the next search takes.
+        terminal.keys('Down', 'Down', 'b')
+        terminal.see(r'Bounds: 1\.45 mm \.\. 1\.77 mm')
+        terminal.keys('C-u', '1.7 .. 1.5', 'Enter')
+        terminal.see('The minimum must be below the maximum')
+        terminal.keys('b', 'C-u', '1.5 .. 1700 um', 'Enter')
+        terminal.see(r'✓ Section diameter .* 1\.5 mm +1\.7 mm')
+        terminal.see('of an earlier request')
+        terminal.keys('Enter')
+        terminal.see(r'✓ Section diameter +1\.61 mm +1\.5 mm +1\.5 mm .* lower')
+        terminal.keys('Up', 'Up')
         # Another objective, and a search that is cancelled.
         terminal.keys('Right')
         terminal.see('of an earlier request', unlike='minimum break-away force')
