@@ -173,14 +173,19 @@ static bool are_units(char *const *cells) {
 }
 
 // Whether a header line can name the columns: it has a text for nearly all that have numbers, and
-// is not a row itself that has no value in one of them.
+// no value.
 static bool names_columns(const SbTextTable *table, char *const *cells) {
   size_t texts = 0, numbers = 0, count = 0;
   double value;
+  SbTextTableClock clock;
   for (; cells[count] != NULL; count++) {
     const SbTextTableCell cell = {cells[count], strlen(cells[count])};
-    texts += count < table->columns && !sb_text_table_void(&cell) &&
-             !sb_text_table_number(&value, &cell, &table->dialect, NULL);
+    const bool empty = sb_text_table_void(&cell);
+    if (!empty && (sb_text_table_number(&value, &cell, &table->dialect, NULL) ||
+                   sb_text_table_clock(&clock, &cell))) {
+      return false;
+    }
+    texts += count < table->columns && !empty;
   }
   for (size_t i = 0; i < table->columns; i++) {
     numbers += table->column[i].numeric || table->column[i].clock;
@@ -234,20 +239,6 @@ static bool names_each(const SbTextTable *table, const GString *line, char *cons
          (!words || strpbrk(line->str, "[(") != NULL);
 }
 
-// Whether a line names columns or states their units: all its cells are texts.
-static bool heads(bool *units, const SbTextTable *table, char *const *cells) {
-  double value;
-  SbTextTableClock clock;
-  *units = are_units(cells) && cells[1] != NULL;
-  bool texts = *units || names_columns(table, cells);
-  for (; *cells != NULL && texts; cells++) {
-    const SbTextTableCell cell = {*cells, strlen(*cells)};
-    texts = !sb_text_table_number(&value, &cell, &table->dialect, NULL) &&
-            !sb_text_table_clock(&clock, &cell);
-  }
-  return texts;
-}
-
 void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
                               const SbTextTable *table) {
   const bool after_row = block->after_row, matrix = table->dialect.matrix;
@@ -256,12 +247,10 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
   if (row || line->len == 0 || (matrix && strspn(line->str, "#%!") > 0)) {
     return;
   }
-  bool units = false;
   g_auto(GStrv) cells = sb_text_table_header_cells(table, line);
-  const bool headed = heads(&units, table, cells);
-  if (matrix && !after_row) {
-    units = false;
-  } else if (!headed || (after_row && !names_each(table, line, cells))) {
+  const bool any = matrix && !after_row, units = !any && are_units(cells) && cells[1] != NULL;
+  if (!any && ((!units && !names_columns(table, cells)) ||
+               (after_row && !names_each(table, line, cells)))) {
     return;
   }
   // Names and units, with a newline between. Without a line of units, the same names have those

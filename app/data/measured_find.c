@@ -129,11 +129,10 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     return sb_data_add_issue(data, SB_DATA_FILE, NULL, issues,
                              "no stroke into the valve was found in it");
   }
-  m->last = m->tests > 0 ? 0 : m->cycle->len - 1;
   const char *said = data->text[SB_DATA_CYCLE];
-  if (said != NULL && strcmp(said, "all") == 0) {
-    m->last = m->cycle->len - 1;
-  } else if (said != NULL) {
+  const bool all = said != NULL && strcmp(said, "all") == 0;
+  m->last = m->tests > 0 && !all ? 0 : m->cycle->len - 1;
+  if (said != NULL && !all) {
     double number = 0;
     if (!sb_number_parse(&number, said) || number != floor(number) || number < 1 ||
         number > m->cycle->len) {

@@ -68,15 +68,12 @@ char *sb_measured_keys(const SbMeasured *m) {
 char *sb_measured_doubts(const SbMeasured *m) {
   GString *out = g_string_new(NULL);
   if (m->specimens > 1) {
-    g_string_append_printf(
-        out, "; %zu specimens side by side: the first is used, `columns` selects another",
-        m->specimens);
+    g_string_append_printf(out, "; %zu specimens side by side: the first is used (`columns`)",
+                           m->specimens);
   }
   if (m->tests > 0) {
-    g_string_append_printf(
-        out,
-        "; %zu tests one below the other: the first is used unless `cycle` selects another or all",
-        m->tests + 1);
+    g_string_append_printf(out, "; %zu tests one below the other: the first is used (`cycle`)",
+                           m->tests + 1);
   }
   if (m->dropped > 0) {
     g_string_append_printf(out,

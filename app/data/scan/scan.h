@@ -1,7 +1,7 @@
 // Scans of surfaces from files: heights on a grid or along a line, in metres.
 //
-//   text   a matrix; columns x z; or columns x y z on a grid. Headers of ESRI, SPIP and Gwyddion
-//          ("Width: 5 µm"), or names with units ("x [mm], z [µm]").
+//   text   a matrix; columns x z or, on a grid, x y z, by their names or in this order. Headers of
+//          ESRI, SPIP and Gwyddion ("Width: 5 µm"), or names with units ("x [mm], z [µm]").
 //   .gwy   Gwyddion's container (gwyddion.net, "Format of Gwyddion Files"); masked points are
 //          missing points.
 //   .sur   Digital Surf's surface and profile, format 2.00, 16 or 32 bits.

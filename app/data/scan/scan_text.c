@@ -86,9 +86,9 @@ static bool find_columns(SbScan *out, SbScanText *text, GError **error) {
   gsize use[3] = {none, none, none}, twice[3] = {none, none, none}, other[3], others = 0;
   for (gsize i = 0; i < columns; i++) {
     int axis = 0;
-    while (axis < 3 &&
-           !g_regex_match_simple(keys[axis], text->table->column[i].name, G_REGEX_CASELESS, 0)) {
-      axis++;
+    const char *name = text->table->column[i].name;
+    while (axis < 3 && !g_regex_match_simple(keys[axis], name, G_REGEX_CASELESS, 0)) {
+      axis += columns == 2 ? 2 : 1;
     }
     if (axis < 3) {
       twice[axis] = use[axis];
@@ -97,13 +97,8 @@ static bool find_columns(SbScan *out, SbScanText *text, GError **error) {
       other[others++] = i;
     }
   }
-  if (columns == 2 && use[1] < none && MIN(use[0], use[2]) < none) { // y over x, or z along y
-    use[use[2] < none ? 0 : 2] = use[1];
-    use[1] = none;
-  }
-  const bool few = columns <= 3, lone = columns == 2 && use[1] < none;
-  const bool between = use[1] == none && use[2] < none;
-  if (columns != text->matrix.columns || columns < 2 || lone ||
+  const bool few = columns <= 3, between = use[1] == none && use[2] < none;
+  if (columns != text->matrix.columns || columns < 2 ||
       (few ? others == columns : MAX(use[0], use[2]) == none)) {
     return true;
   }
