@@ -152,7 +152,7 @@ static void test_names(void) {
 
 static void test_refused(void) {
   g_autofree char *study = write_study(), *store = path_of("x.store");
-  static const char *const names[] = {":memory:", "-"};
+  static const char *const names[] = {":memory:", "-", "file:zz?mode=memory", "file:zz.store"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     CliResult result = CLI("study", study, "-o", names[i], "-q");
     g_assert_cmpint(result.code, ==, 1);
