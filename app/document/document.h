@@ -105,9 +105,10 @@ const char *sb_document_valve_path(const SbDocument *document);
 // call for this document.
 const GPtrArray *sb_document_notes(const SbDocument *document);
 
-// Appends a note to `notes` (of SbIssue) for each size that the file gives, and that does not
-// follow another size which --set or an edit has changed, although both change together in a
-// drawing (sb_params_kept()). A run has the same text as its warning "size-kept".
+// Appends a note to `notes` (of SbIssue) for each size that does not fit the others
+// (sb_params_size_check()): the file gives it, so it does not follow another size which --set or an
+// edit has changed, although both change together in a drawing; or the sizes cannot be built. A run
+// has the same text as its warning.
 void sb_document_kept(const SbDocument *document, GPtrArray *notes);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of

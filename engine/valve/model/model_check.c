@@ -274,11 +274,12 @@ void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings 
 }
 
 void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
-  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+  for (int i = 0; i < SB_SIZE_CHECKS; i++) {
     char text[SB_TEXT];
     SbParamId id;
-    if (sb_params_kept(text, &id, &model->params, i)) {
-      sb_warn(warnings, "size-kept", sb_input(id), "%s", text);
+    const char *code = sb_params_size_check(text, &id, &model->params, i);
+    if (code != NULL) {
+      sb_warn(warnings, code, sb_input(id), "%s", text);
     }
   }
   sb_model_warn_modulus(model, model->temperature, warnings);

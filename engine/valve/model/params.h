@@ -216,10 +216,17 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // size to *id and the size that it follows to *giver. Returns false if the row is for another kind.
 bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind);
 
-// Writes the size of row `index` of SB_KEEPS to *id. Returns whether it is given while the size
-// that it would follow differs from params->drawn[index] (> 0) by more than the tolerance of that
-// size; then writes a sentence for the user to `text`.
-bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, int index);
+// Number of checks of sizes that belong together: one for each row SB_KEEPS, then the chamber.
+enum { SB_SIZE_CHECKS = SB_KEEPS_COUNT + 1 };
+
+// Writes the size of check `index` (below SB_SIZE_CHECKS) to *id. Returns NULL if the size fits the
+// others; else the code of the warning, and writes a sentence for the user to `text`. "size-kept":
+// the size of a row SB_KEEPS is given while the size that it would follow differs from
+// params->drawn[index] (> 0) by more than the tolerance of the row. "size-limited": the size
+// follows another one out of its own range, whose end applies. "size-overlap": the dose chamber is
+// longer than the stem between the grooves.
+const char *sb_params_size_check(char text[SB_TEXT], SbParamId *id, const SbParams *params,
+                                 int index);
 
 // Returns the fluid (a choice of fluid.name) for which the value of the fluid-dependent
 // parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of fluid.figures, or
