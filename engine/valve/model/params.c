@@ -291,11 +291,28 @@ bool sb_param_of_rubber(SbParamId id) {
          id == SB_P_SEAL_POISSON_RATIO || id == SB_P_SEAL_MOONEY_SHARE;
 }
 
+// Parameters that depend on the fluid. `fluid`: that of the catalogue's default (a choice of
+// fluid.name; custom: the thesis' HFA-134a), -1: the default is of none.
+enum { CUSTOM, HFA_134A };
+static const struct {
+  SbParamId id;
+  int fluid;
+} figures[] = {{SB_P_RUBBER_SWELL_MASS, -1},
+               {SB_P_RUBBER_PERMEABILITY, -1},
+               {SB_P_HOUSING_PERMEABILITY, -1},
+               {SB_P_RUBBER_DIFFUSION, HFA_134A},
+               {SB_P_FLUID_PRESSURE_VISCOSITY, HFA_134A},
+               {SB_P_FLUID_VAPOUR_VISCOSITY, HFA_134A}};
+
 int sb_params_of_fluid(int index) {
-  static const SbParamId figures[] = {SB_P_RUBBER_SWELL_MASS, SB_P_RUBBER_PERMEABILITY,
-                                      SB_P_HOUSING_PERMEABILITY};
   const int count = (int)(sizeof figures / sizeof figures[0]);
-  return index < count ? (int)figures[index] : -1;
+  return index < count ? (int)figures[index].id : -1;
+}
+
+// Whether a figure has the value of the catalogue, whose fluid is known.
+static bool is_of_catalogue(const SbParams *params, int index) {
+  const SbParamId id = figures[index].id;
+  return figures[index].fluid >= 0 && sb_params_get(params, id) == table[id].fallback;
 }
 
 // Fluid of which figures that depend on the fluid are taken from a rubber.
@@ -326,6 +343,9 @@ int sb_params_other_fluid(const SbParams *params, SbParamId id) {
   if (sb_params_of_fluid(i) < 0 || !(sb_params_get(params, id) > 0)) {
     return -1;
   }
+  if (is_of_catalogue(params, i)) {
+    return own == CUSTOM || own == figures[i].fluid ? -1 : figures[i].fluid;
+  }
   if (stated != own) {
     return stated;
   }
@@ -343,7 +363,7 @@ void sb_params_keep_fluid(SbParams *params, const SbParams *base) {
   for (int i = 0; sb_params_of_fluid(i) >= 0; i++) {
     const int id = sb_params_of_fluid(i);
     if (params->given[id] && base->given[id] && params->value[id] == base->value[id] &&
-        params->value[id] > 0) {
+        params->value[id] > 0 && !is_of_catalogue(params, i)) {
       params->value[SB_P_FLUID_FIGURES] = from;
       params->given[SB_P_FLUID_FIGURES] = true;
     }

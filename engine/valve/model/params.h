@@ -229,13 +229,14 @@ const char *sb_params_size_check(char text[SB_TEXT], SbParamId *id, const SbPara
                                  int index);
 
 // Returns the fluid (a choice of fluid.name) for which the value of the fluid-dependent
-// parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of fluid.figures, or
-// the fluid for which the named rubber has the same value. Returns -1 if the value is meant for
-// fluid.name, if the parameter is 0, or if `id` does not depend on the fluid.
+// parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of the catalogue's
+// default, whether it is given or not; the fluid of fluid.figures; or the fluid for which the named
+// rubber has the same value. Returns -1 if the value is meant for fluid.name, if the parameter is
+// 0, or if `id` does not depend on the fluid.
 int sb_params_other_fluid(const SbParams *params, SbParamId id);
 
-// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0), a swell or
-// permeability; -1 after the last one.
+// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0): a property of the
+// liquid or vapour, or of rubber or plastic in it; -1 after the last one.
 int sb_params_of_fluid(int index);
 
 // Call it after changes to `params`, a copy of `base`. Sets fluid.figures of `params` to the fluid
