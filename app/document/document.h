@@ -63,7 +63,8 @@ bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
 // with at least one issue, if the text is no document at all or the file is not a regular file,
 // larger than SB_DOCUMENT_BYTES_MAX, not UTF-8, or binary. Freed by sb_document_free().
 //
-// "-" is standard input: the document has no path and looks for other files in the current folder.
+// "-" is standard input: the document has no path and looks for other files in the current folder,
+// as does that of a pipe (sb_reader_folder()).
 // From a PNG that this program wrote, the scene that was drawn is read, as a valve with all its
 // values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
