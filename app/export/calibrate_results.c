@@ -218,24 +218,8 @@ SbTable *sb_calibration_table(const SbCalibration *of) {
   return table;
 }
 
-// Explains estimates outside of their interval: the mode of a skewed posterior, for example one
-// that ends where the stem stops returning, may be beyond its 97.5 % quantile.
-static void append_modes_outside(GString *text, const SbCalibration *of) {
-  for (size_t j = 0; j < of->parameters; j++) {
-    const SbCalibrated *one = &of->parameter[j];
-    if (one->estimate < one->interval[0] || one->estimate > one->interval[1]) {
-      g_string_append_printf(
-          text,
-          "%s: the estimate is the best fit, at the edge of a skewed posterior; the interval "
-          "leaves out 2.5 %% of the posterior at either end\n",
-          one->name);
-    }
-  }
-}
-
 char *sb_calibration_notes(const SbCalibration *of) {
   GString *text = g_string_new(NULL);
-  append_modes_outside(text, of);
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];
     g_string_append_printf(text, "%s: differences %.3g N before, %.3g N after%s\n", curve->name,
