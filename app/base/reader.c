@@ -116,6 +116,14 @@ char *sb_reader_load_file(size_t *length, const char *path, const char *shown, s
   return text;
 }
 
+char *sb_reader_folder(const char *path) {
+  struct stat info;
+  const bool stream = strcmp(path, "-") == 0 || g_str_has_prefix(path, "/dev/fd/") ||
+                      strcmp(path, "/dev/stdin") == 0 ||
+                      (stat(path, &info) == 0 && S_ISFIFO(info.st_mode));
+  return stream ? NULL : g_path_get_dirname(path);
+}
+
 static void entry_free(gpointer data) {
   SbEntry *entry = data;
   g_free(entry->group);

@@ -41,6 +41,10 @@ char *sb_reader_load_file(size_t *length, const char *path, const char *shown, s
 char *sb_reader_load_stream(size_t *length, int fd, const char *shown, size_t bytes_max,
                             GPtrArray *issues);
 
+// Returns the folder from which the names in the file `path` are resolved, freed by g_free(); NULL,
+// the current folder: `path` is a stream ("-", a pipe, or a descriptor such as /dev/fd/63).
+char *sb_reader_folder(const char *path);
+
 // Returns the value of [sealbench] kind of the `length` bytes of a text, such as "study"; NULL if
 // the text has none. *grouped: whether the text has any group of a key file. Freed by g_free().
 char *sb_reader_kind(bool *grouped, const char *text, size_t length);

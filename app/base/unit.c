@@ -153,13 +153,20 @@ bool sb_quantity_is_point(const char *shown) {
   return strcmp(shown, "°C") == 0;
 }
 
+// The zero of a scale as the decimal that it is, if it is one: -20 °C are 253.15 K, not the double
+// beside it.
+static long double zero_of(UnitScale scale) {
+  const long double decimal = roundl(scale.zero * 1e10L) / 1e10L;
+  return fabsl(decimal - scale.zero) < 1e-13L ? decimal : scale.zero;
+}
+
 // number x scale, the scale taken as a division where its inverse is whole: 20 mm/min is 20/60000.
 static double apply_scale(double number, UnitScale scale) {
   double inverse = 1 / scale.scale;
   if (inverse > 1 && inverse < 1e15 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
-    return number / round(inverse) + scale.zero;
+    return (double)(number / round(inverse) + zero_of(scale));
   }
-  return number * scale.scale + scale.zero;
+  return (double)(number * scale.scale + zero_of(scale));
 }
 
 // The number at text[0..length) times 10^power, rounded once.
@@ -277,7 +284,9 @@ double sb_quantity_to_shown(double value, const char *si, const char *shown) {
   if (scale.status != SCALE_OK) {
     return value;
   }
-  value -= scale.zero;
+  if (scale.zero != 0) { // to 1e-13 K, below which the difference is noise
+    value = round((double)(value - zero_of(scale)) * 1e13) / 1e13;
+  }
   double inverse = 1 / scale.scale;
   if (inverse > 1 && fabs(inverse - round(inverse)) <= 1e-12 * inverse) {
     return value * round(inverse);
@@ -308,7 +317,7 @@ double sb_quantity_from_shown(double number, const char *si, const char *shown) 
 
 // Fewest digits of value / scale that come back as `value`; false if no 17 digits do.
 static bool format_scaled(char text[SB_NUMBER_SIZE], double value, UnitScale scale) {
-  double near = (value - scale.zero) / scale.scale;
+  double near = (double)((value - zero_of(scale)) / scale.scale);
   for (int digits = 1; digits <= 17; digits++) {
     sb_number_round(text, near, digits);
     if (apply_scale(g_ascii_strtod(text, NULL), scale) == value) {

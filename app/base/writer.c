@@ -20,14 +20,26 @@ static const SbEntry *find(const GPtrArray *entries, const SbChange *change, int
   return NULL;
 }
 
+// Returns the text of the new group `name`, which begins with its heading: the one in `groups`,
+// else a new one at its end. Borrowed from `groups`.
+static GString *new_group(GPtrArray *groups, const char *name) {
+  g_autofree char *heading = g_strdup_printf("\n[%s]\n", name);
+  for (guint i = 0; i < groups->len; i++) {
+    if (g_str_has_prefix(((const GString *)groups->pdata[i])->str, heading)) {
+      return groups->pdata[i];
+    }
+  }
+  g_ptr_array_add(groups, g_string_new(heading));
+  return groups->pdata[groups->len - 1];
+}
+
 char *sb_writer_apply(const char *text, const GPtrArray *entries, const SbChange *changes,
                       size_t count) {
   // Each line (NULL once removed) and what is to follow it.
   char **lines = g_strsplit(text, "\n", -1);
   size_t line_count = g_strv_length(lines);
   GString **behind = g_new0(GString *, line_count);
-  GString *tail = g_string_new(NULL); // groups that are new
-  const char *tail_group = "";
+  g_autoptr(GPtrArray) groups = g_ptr_array_new(); // new ones, of GString
   for (size_t i = 0; i < count; i++) {
     const SbChange *change = &changes[i];
     int last = 0;
@@ -42,11 +54,8 @@ char *sb_writer_apply(const char *text, const GPtrArray *entries, const SbChange
       *more = *more != NULL ? *more : g_string_new(NULL);
       g_string_append_printf(*more, "%s = %s\n", change->name, change->value);
     } else if (change->value != NULL) {
-      if (strcmp(tail_group, change->group) != 0) {
-        g_string_append_printf(tail, "\n[%s]\n", change->group);
-        tail_group = change->group;
-      }
-      g_string_append_printf(tail, "%s = %s\n", change->name, change->value);
+      g_string_append_printf(new_group(groups, change->group), "%s = %s\n", change->name,
+                             change->value);
     }
   }
   GString *out = g_string_new(NULL);
@@ -61,8 +70,10 @@ char *sb_writer_apply(const char *text, const GPtrArray *entries, const SbChange
     }
     g_free(lines[i]);
   }
-  g_string_append(out, tail->str);
-  g_string_free(tail, TRUE);
+  for (guint i = 0; i < groups->len; i++) {
+    g_string_append(out, ((const GString *)groups->pdata[i])->str);
+    g_string_free(groups->pdata[i], TRUE);
+  }
   g_free(behind);
   g_free(lines);
   return g_string_free(out, FALSE);

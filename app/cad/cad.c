@@ -130,8 +130,8 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
     const double more = body->profile->len > 0 ? body->revolved.volume / body->solid.volume - 1 : 0;
     if (body->measured && (uneven > ROUND || fabs(more) > ROUND)) {
       sb_note_add(cad->warnings,
-                  "%s: not a body of revolution: its moments across the axis differ by %.2g %%, "
-                  "and its half-section, revolved, has %.2g %% %s volume",
+                  "%s: not a body of revolution: its moments across the axis differ by %.3g %%, "
+                  "and its half-section, revolved, has %.3g %% %s volume",
                   body->name, 100 * uneven, 100 * fabs(more), more < 0 ? "less" : "more");
     }
   }

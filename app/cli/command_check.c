@@ -200,7 +200,7 @@ static bool load(Check *check) {
   }
   const size_t most = large ? (size_t)256 << 20 : SB_DOCUMENT_BYTES_MAX;
   check->shown = stream ? "standard input" : check->path;
-  check->directory = stream ? NULL : g_path_get_dirname(check->path);
+  check->directory = sb_reader_folder(check->path);
   GPtrArray *errors = check->issues[SEVERITY_ERROR];
   check->text =
       stream ? sb_reader_load_stream(&check->length, STDIN_FILENO, check->shown, most, errors)

@@ -2,6 +2,7 @@
 #include "app/cli/cli.h"
 
 #include "app/base/figure_text.h"
+#include "app/base/format.h"
 #include "app/export/design_results.h"
 #include "app/export/study_results.h"
 
@@ -75,11 +76,14 @@ static void print_design_table(const SbStudyFile *study, const SbDesign *design)
   g_autoptr(SbTable) table = make_table(study, design);
   (void)sb_cli_table(table, NULL);
   if (design->checked) {
-    printf("  over the tolerances all limits are met with a probability of %.6g %% "
-           "(" SB_INTERVAL_COVERS ", 95 %%: %.6g to %.6g %%; by FORM %.6g "
-           "%%)\n",
-           100 * design->holds, 100 * design->interval[0], 100 * design->interval[1],
-           100 * design->by_form);
+    const double of[] = {design->holds, design->interval[0], design->interval[1], design->by_form};
+    char text[4][SB_FORMAT_MAX];
+    for (size_t i = 0; i < G_N_ELEMENTS(of); i++) {
+      sb_format_given(text[i], SB_QUANTITY_FRACTION, of[i]);
+    }
+    printf("  over the tolerances all limits are met with a probability of %s (" SB_INTERVAL_COVERS
+           ", 95 %%: %s to %s; by FORM %s)\n",
+           text[0], text[1], text[2], text[3]);
   }
   g_autofree char *bounds = sb_design_bounds(design, study),
                   *codes = sb_warning_codes(design->warnings, ", ");
@@ -119,8 +123,10 @@ static int judge(const SbStudyFile *study, const SbDesign *design) {
                         design->starts, sb_figure(limit->figure)->path, bound, value);
     }
   } else if (isfinite(study->design.robust) && !design->met) {
-    (void)sb_cli_fail("all limits are met with a probability of only %.6g %%, not %.6g %%",
-                      100 * design->holds, 100 * study->design.robust);
+    char holds[SB_FORMAT_MAX], asked[SB_FORMAT_MAX];
+    (void)sb_cli_fail("all limits are met with a probability of only %s, not %s",
+                      sb_format_given(holds, SB_QUANTITY_FRACTION, design->holds),
+                      sb_format_given(asked, SB_QUANTITY_FRACTION, study->design.robust));
   }
   if (!design->converged) {
     return MAX(sb_cli_fail("the search did not converge: %s",

@@ -1,5 +1,6 @@
 // sealbench sensitivity: derivatives of a scene's figures by its parameters.
 #include "app/base/figure_text.h"
+#include "app/base/format.h"
 #include "app/base/nearest.h"
 #include "app/cli/cli.h"
 #include "app/study/effects.h"
@@ -106,11 +107,14 @@ static void add_sensitivity_figure(SbTable *table, const SbGradient *gradient, s
     const SbEffect *effect = &effects[i];
     const SbParamId id = sb_gradient_parameter(gradient, effect->parameter);
     const double error = effect->error / fabs(effect->change);
-    sb_table_add(table, SB_CELLS(sb_cell_text(sb_param(id)->key),
-                                 sb_cell_shown(sb_figure_format(index, effect->change, error)),
-                                 sb_cell_own(effect->tolerance ? sb_param_format(id, effect->step)
-                                                               : g_strdup("5 %")),
-                                 sb_cell_shown(g_strdup_printf("%.1g %%", 100 * error))));
+    char digits[SB_FORMAT_MAX];
+    sb_table_add(
+        table,
+        SB_CELLS(
+            sb_cell_text(sb_param(id)->key),
+            sb_cell_shown(sb_figure_format(index, effect->change, error)),
+            sb_cell_own(effect->tolerance ? sb_param_format(id, effect->step) : g_strdup("5 %")),
+            sb_cell_shown(g_strdup_printf("%s %%", sb_format_digits(digits, 100 * error, 1)))));
   }
   if (count > ROWS) {
     sb_table_note(table, "  and %zu parameters of less effect: --json", count - ROWS);

@@ -3,6 +3,7 @@
 #include "app/cli/plots.h"
 
 #include "app/base/figure_text.h"
+#include "app/base/format.h"
 #include "app/base/output.h"
 #include "app/export/study_results.h"
 
@@ -87,11 +88,16 @@ static void print_unknown(const SbLimitShare *share) {
 
 static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
   const bool reliability = study->method == SB_METHOD_RELIABILITY;
+  const double unit = reliability ? 1e6 : 100;
+  const char *name = reliability ? "ppm" : "%";
+  char p[SB_FORMAT_MAX], low[SB_FORMAT_MAX], high[SB_FORMAT_MAX];
+  sb_format_digits(p, unit * share->probability, 3);
+  sb_format_digits(low, unit * share->interval[0], 3);
+  sb_format_digits(high, unit * share->interval[1], 3);
   if (share->of == 0) {
     puts(" no sample has it");
   } else if (share->certain && (reliability || study->method == SB_METHOD_MONTE_CARLO)) {
-    printf(" %s (" SB_INTERVAL_COVERS ", 95 %%: at least %.3g %s)\n", share->reason,
-           (reliability ? 1e6 : 100) * share->interval[0], reliability ? "ppm" : "%");
+    printf(" %s (" SB_INTERVAL_COVERS ", 95 %%: at least %s %s)\n", share->reason, low, name);
   } else if (reliability && isnan(share->probability)) {
     puts(" not all samples are there");
   } else if (reliability || study->method == SB_METHOD_MONTE_CARLO) {
@@ -100,10 +106,7 @@ static void print_share(const SbStudyFile *study, const SbLimitShare *share) {
       print_unknown(share);
       putchar(':');
     }
-    const double unit = reliability ? 1e6 : 100;
-    const char *name = reliability ? "ppm" : "%";
-    printf(" %.3g %s (" SB_INTERVAL_COVERS ", 95 %%: %.3g to %.3g %s)", unit * share->probability,
-           name, unit * share->interval[0], unit * share->interval[1], name);
+    printf(" %s %s (" SB_INTERVAL_COVERS ", 95 %%: %s to %s %s)", p, name, low, high, name);
     if (reliability && isfinite(share->beta)) {
       printf(", beta %.3f", share->beta);
     }
@@ -180,11 +183,13 @@ static SbStatus print_leakage(const SbStudyFile *study, const SbAnswers *answers
   if (status == SB_OK && isnan(odds.probability)) {
     printf("  %s: no sample has a loss on the shelf\n", study->leakage.edition);
   } else if (status == SB_OK) {
-    printf("  %s: %zu of %zu simulated tests pass, %.3g %% (" SB_INTERVAL_COVERS
-           ", 95 %%: %.3g to %.3g %%), %zu in the "
-           "second stage\n",
-           study->leakage.edition, odds.passed, odds.tests, 100 * odds.probability,
-           100 * odds.interval[0], 100 * odds.interval[1], odds.second);
+    char p[SB_FORMAT_MAX], low[SB_FORMAT_MAX], high[SB_FORMAT_MAX];
+    printf("  %s: %zu of %zu simulated tests pass, %s %% (" SB_INTERVAL_COVERS
+           ", 95 %%: %s to %s %%), %zu in the second stage\n",
+           study->leakage.edition, odds.passed, odds.tests,
+           sb_format_digits(p, 100 * odds.probability, 3),
+           sb_format_digits(low, 100 * odds.interval[0], 3),
+           sb_format_digits(high, 100 * odds.interval[1], 3), odds.second);
   }
   return status;
 }

@@ -396,10 +396,9 @@ SbDocument *sb_document_read(const char *path, const char *text, size_t length, 
   if (sb_output_ends_in(path, ".png") || (length > 4 && memcmp(text, signature, 4) == 0)) {
     return parse_picture(text, length, shown_path(path), issues);
   }
-  const bool stream = strcmp(path, "-") == 0;
-  g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
+  g_autofree char *directory = sb_reader_folder(path);
   SbDocument *document = sb_document_parse(text, length, shown_path(path), directory, issues);
-  if (document != NULL && !stream) {
+  if (document != NULL && directory != NULL) {
     document->path = g_strdup(path);
     sb_file_stamp_set(&document->disk, path, text, length);
     sb_document_refresh_title(document);

@@ -63,7 +63,8 @@ bool sb_document_faults(const SbDocument *document, GPtrArray *issues);
 // with at least one issue, if the text is no document at all or the file is not a regular file,
 // larger than SB_DOCUMENT_BYTES_MAX, not UTF-8, or binary. Freed by sb_document_free().
 //
-// "-" is standard input: the document has no path and looks for other files in the current folder.
+// "-" is standard input: the document has no path and looks for other files in the current folder,
+// as does that of a pipe (sb_reader_folder()).
 // From a PNG that this program wrote, the scene that was drawn is read, as a valve with all its
 // values and without a path.
 SbDocument *sb_document_load(const char *path, GPtrArray *issues);
@@ -105,9 +106,10 @@ const char *sb_document_valve_path(const SbDocument *document);
 // call for this document.
 const GPtrArray *sb_document_notes(const SbDocument *document);
 
-// Appends a note to `notes` (of SbIssue) for each size that the file gives, and that does not
-// follow another size which --set or an edit has changed, although both change together in a
-// drawing (sb_params_kept()). A run has the same text as its warning "size-kept".
+// Appends a note to `notes` (of SbIssue) for each size that does not fit the others
+// (sb_params_size_check()): the file gives it, so it does not follow another size which --set or an
+// edit has changed, although both change together in a drawing; or the sizes cannot be built. A run
+// has the same text as its warning.
 void sb_document_kept(const SbDocument *document, GPtrArray *notes);
 
 // Returns which shape of the document's own file gives the size `id`, such as "the bore of

@@ -131,12 +131,13 @@ void sb_document_remarks(const SbDocument *document, const SbModel *model, GPtrA
 
 void sb_document_kept(const SbDocument *document, GPtrArray *notes) {
   const SbParams params = sb_document_params(document);
-  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+  for (int i = 0; i < SB_SIZE_CHECKS; i++) {
     char text[SB_TEXT];
     SbParamId id;
-    if (sb_params_kept(text, &id, &params, i)) {
-      sb_issues_add(notes, document->own.given[id] ? document->name : document->valve_path, 0,
-                    sb_param(id)->key, NULL, "%s", text);
+    if (sb_params_size_check(text, &id, &params, i) != NULL) {
+      const bool own = document->own.given[id] || document->valve_path == NULL;
+      sb_issues_add(notes, own ? document->name : document->valve_path, 0, sb_param(id)->key, NULL,
+                    "%s", text);
     }
   }
 }

@@ -40,11 +40,10 @@ int sb_study_vary_index(const SbStudyFile *study, const char *key) {
 
 SbStudyFile *sb_study_file_read(const char *path, const char *text, size_t length, char **settings,
                                 GPtrArray *issues) {
-  const bool stream = strcmp(path, "-") == 0;
-  const char *shown = stream ? "standard input" : path;
-  g_autofree char *directory = stream ? NULL : g_path_get_dirname(path);
+  const char *shown = strcmp(path, "-") == 0 ? "standard input" : path;
+  g_autofree char *directory = sb_reader_folder(path);
   SbStudyFile *study = sb_study_file_parse(text, length, shown, directory, settings, NULL, issues);
-  if (study != NULL && !stream) {
+  if (study != NULL && directory != NULL) {
     study->path = g_strdup(path);
   }
   return study;

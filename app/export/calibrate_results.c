@@ -218,28 +218,15 @@ SbTable *sb_calibration_table(const SbCalibration *of) {
   return table;
 }
 
-// Explains estimates outside of their interval: the mode of a skewed posterior, for example one
-// that ends where the stem stops returning, may be beyond its 97.5 % quantile.
-static void append_modes_outside(GString *text, const SbCalibration *of) {
-  for (size_t j = 0; j < of->parameters; j++) {
-    const SbCalibrated *one = &of->parameter[j];
-    if (one->estimate < one->interval[0] || one->estimate > one->interval[1]) {
-      g_string_append_printf(
-          text,
-          "%s: the estimate is the best fit, at the edge of a skewed posterior; the interval "
-          "leaves out 2.5 %% of the posterior at either end\n",
-          one->name);
-    }
-  }
-}
-
 char *sb_calibration_notes(const SbCalibration *of) {
   GString *text = g_string_new(NULL);
-  append_modes_outside(text, of);
+  char digits[2][SB_FORMAT_MAX];
   for (size_t c = 0; c < of->curves; c++) {
     const SbCalibratedCurve *curve = &of->curve[c];
-    g_string_append_printf(text, "%s: differences %.3g N before, %.3g N after%s\n", curve->name,
-                           curve->before_rms, curve->after != NULL ? curve->after->rms : NAN,
+    const double after = curve->after != NULL ? curve->after->rms : NAN;
+    g_string_append_printf(text, "%s: differences %s N before, %s N after%s\n", curve->name,
+                           sb_format_digits(digits[0], curve->before_rms, 3),
+                           sb_format_digits(digits[1], after, 3),
                            curve->spread > 1 ? "; they are correlated, and counted for less" : "");
     if (curve->measured->force_zero == SB_HOW_ASSUMED) {
       g_string_append_printf(text,
@@ -250,13 +237,13 @@ char *sb_calibration_notes(const SbCalibration *of) {
   }
   if (isfinite(of->chi2)) {
     g_string_append_printf(
-        text, "chi2 per degree of freedom %.3g%s\n", of->chi2,
+        text, "chi2 per degree of freedom %s%s\n", sb_format_digits(digits[0], of->chi2, 3),
         of->chi2 > 1.5 ? ": more than noise is left, which the model cannot follow" : "");
   }
   if (of->tangent) {
     g_string_append_printf(
-        text, "posterior of the tangent at the fit; %d solved loops differ from it by %.3g N\n",
-        SB_CALIBRATION_CHECKS, of->check_rms);
+        text, "posterior of the tangent at the fit; %d solved loops differ from it by %s N\n",
+        SB_CALIBRATION_CHECKS, sb_format_digits(digits[0], of->check_rms, 3));
   }
   g_autofree char *codes = sb_warning_codes(of->warnings, ", ");
   if (codes != NULL) {

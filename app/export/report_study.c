@@ -3,6 +3,7 @@
 #include "app/export/report.h"
 
 #include "app/base/figure_text.h"
+#include "app/base/format.h"
 #include "app/base/number.h"
 #include "app/export/report_study_private.h"
 #include "app/export/study_results.h"
@@ -240,14 +241,15 @@ static void draw_leakage(SbReportPages *pages, SbReportStudyParts *study) {
   const SbStatus status = sb_study_leakage(&odds, study->study, study->answers, &report);
   study->status = status != SB_OK ? status : study->status;
   sb_report_heading(pages, study->study->leakage.edition, 40);
+  char p[SB_FORMAT_MAX], low[SB_FORMAT_MAX], high[SB_FORMAT_MAX];
   g_autofree char *text =
       isnan(odds.probability)
           ? g_strdup("No sample has a loss on the shelf.")
-          : g_strdup_printf(
-                "%zu of %zu simulated tests pass, %.3g\xc2\xa0%% (95\xc2\xa0%%: %.3g to "
-                "%.3g\xc2\xa0%%), %zu of them in the second stage.",
-                odds.passed, odds.tests, 100 * odds.probability, 100 * odds.interval[0],
-                100 * odds.interval[1], odds.second);
+          : g_strdup_printf("%zu of %zu simulated tests pass, %s\xc2\xa0%% (95\xc2\xa0%%: %s to "
+                            "%s\xc2\xa0%%), %zu of them in the second stage.",
+                            odds.passed, odds.tests, sb_format_digits(p, 100 * odds.probability, 3),
+                            sb_format_digits(low, 100 * odds.interval[0], 3),
+                            sb_format_digits(high, 100 * odds.interval[1], 3), odds.second);
   sb_report_text(pages, text, SB_TYPE_LABEL, 400, SB_ROLE_INK);
 }
 

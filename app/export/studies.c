@@ -1,6 +1,7 @@
 // Pages and tables of studies.
 #include "app/export/studies.h"
 
+#include "app/base/format.h"
 #include "app/base/translation.h"
 #include "app/chart/page.h"
 #include "app/chart/propellants.h"
@@ -35,11 +36,12 @@ static void page_size(double *width, double *height, const SbStudy *study) {
 
 static void errors_text(char *out, size_t size, const SbStudy *study) {
   if (study->error > 1e-9) { // below it is rounding
+    char digits[SB_FORMAT_MAX];
     g_snprintf(
         out, size,
-        _("at most %.2g\xc2\xa0%% of a film or of the largest load solved  (discretisation, not "
+        _("at most %s\xc2\xa0%% of a film or of the largest load solved  (discretisation, not "
           "the choice of model)"),
-        100 * study->error);
+        sb_format_digits(digits, 100 * study->error, 2));
   } else {
     g_strlcpy(out, _("closed forms: rounding only  (not the choice of model)"), size);
   }

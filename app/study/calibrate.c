@@ -1,9 +1,11 @@
 // Curves, their runs and what the samples say; see the header.
 #include "app/study/calibrate_private.h"
 
+#include "app/base/number.h"
 #include "engine/numeric/sampling.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 typedef SbCalibrateCurve Curve;
 typedef SbCalibrateWork Work;
@@ -36,6 +38,22 @@ static void keep_samples(SbCalibration *out, const Work *work, const SbInference
     out->parameter[j].prior[0] = sb_distribution_quantile(prior, 0.025);
     out->parameter[j].prior[1] = sb_distribution_quantile(prior, 0.975);
   }
+}
+
+// Replaces the fit, the mode of the posterior, by the medians of the samples: the mode of a skewed
+// posterior, for example of one that ends where the stem stops returning, may be beyond its 97.5 %
+// quantile. Returns false if the model was not evaluated there (work->status).
+static bool take_medians(SbInference *found, Work *work) {
+  const size_t n = work->coordinates, count = found->samples;
+  g_autofree double *column = g_new(double, count + 1);
+  for (size_t j = 0; j < n; j++) {
+    for (size_t i = 0; i < count; i++) {
+      column[i] = found->sample[i * n + j];
+    }
+    qsort(column, count, sizeof *column, sb_number_compare);
+    found->z[j] = column[count / 2];
+  }
+  return sb_calibrate_evaluate(work, found->residual, found->z);
 }
 
 // Runs at the scene's values and at the fit; false: cancelled.
@@ -175,10 +193,12 @@ static SbStatus infer(SbCalibration *out, Work *work, SbReport *report) {
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     out->converged = found.converged;
     out->accepted = found.accepted;
+    // Samples of the tangent are normal about the fit: it is their median.
+    const bool placed = out->tangent || found.samples == 0 || take_medians(&found, work);
     keep_samples(out, work, &found);
     sb_calibration_identify(out);
     // Priors of what is solved hold valves that no ring fits into, and take long.
-    const bool runs = (out->tangent || sb_calibrate_draws(out, work, &found, true)) &&
+    const bool runs = placed && (out->tangent || sb_calibrate_draws(out, work, &found, true)) &&
                       (found.samples == 0 || sb_calibrate_draws(out, work, &found, false));
     const bool stopped = !runs && work->status == SB_ERROR_CANCELLED;
     work->ending |= stopped;

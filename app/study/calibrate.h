@@ -43,7 +43,7 @@ typedef struct {
   int curve;                   // index of the only curve that has it; -1: all
   char *name;                  // its key; of a single curve "key@curve"
   double before;               // value of the scene
-  double estimate;             // of the fit, the mode of the posterior
+  double estimate;             // median of the posterior; without samples the best fit
   double deviation;            // standard deviation of the posterior; NaN: no samples
   double interval[2];          // 95 % interval of the posterior; NaN: no samples
   double prior[2];             // 95 % interval of the prior

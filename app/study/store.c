@@ -238,14 +238,17 @@ static bool open_readable(SbStore *store, int flags, int oldest, GError **error)
 }
 
 bool sb_store_check_name(const char *path, GError **error) {
+  // SQLite reads "file:..." as a URI, which may name a database in memory.
   static const char *const names[] = {"", "-", ":memory:"};
+  bool allowed = !g_str_has_prefix(path, "file:");
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
-    if (strcmp(path, names[i]) == 0) {
-      g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
-                  "\"%s\" cannot be a store: a store is a file, write for example -o NAME.store",
-                  path);
-      return false;
-    }
+    allowed = allowed && strcmp(path, names[i]) != 0;
+  }
+  if (!allowed) {
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,
+                "\"%s\" cannot be a store: a store is a file, write for example -o NAME.store",
+                path);
+    return false;
   }
   if (g_file_test(path, G_FILE_TEST_IS_DIR)) {
     g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT,

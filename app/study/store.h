@@ -33,8 +33,8 @@ typedef struct SbStore SbStore;
 // ---- Opening and closing ----
 
 // Opens a store, or creates one; `path` NULL: in memory. Returns NULL with SB_APP_ERROR_INPUT for a
-// file that is not a store of this format and for the names "", "-" and ":memory:", or with
-// SB_APP_ERROR_IO for a file that is in use or cannot be read or created. Closed by
+// file that is not a store of this format and for a name that sb_store_check_name() refuses, or
+// with SB_APP_ERROR_IO for a file that is in use or cannot be read or created. Closed by
 // sb_store_close() or sb_store_discard().
 SbStore *sb_store_open(const char *path, GError **error);
 
@@ -44,7 +44,8 @@ SbStore *sb_store_open(const char *path, GError **error);
 // sb_store_open().
 SbStore *sb_store_open_rows(const char *path, GError **error);
 
-// Returns whether `path` can be the name of a store; false with SB_APP_ERROR_INPUT.
+// Returns whether `path` can be the name of a store; false with SB_APP_ERROR_INPUT for "", "-",
+// ":memory:", a URI of SQLite ("file:...") and a folder.
 bool sb_store_check_name(const char *path, GError **error);
 
 // Opens the file for writing, so that a failure appears before results are computed.

@@ -2,6 +2,7 @@
 #include "app/terminal/workbench_private.h"
 
 #include "app/base/device.h"
+#include "app/base/format.h"
 #include "app/session/verdict_text.h"
 #include "app/session/worker.h"
 
@@ -167,8 +168,11 @@ static char *run_text(SbBench *bench) {
     return g_strdup("");
   }
   const double error = sb_chart_error_force(&sb_session_chart(bench->session)->run);
+  char digits[SB_FORMAT_MAX];
   g_autofree char *told =
-      error > 1e-5 && isfinite(error) ? g_strdup_printf(_(" · error %.2g %%"), 100 * error) : NULL;
+      error > 1e-5 && isfinite(error)
+          ? g_strdup_printf(_(" · error %s %%"), sb_format_digits(digits, 100 * error, 2))
+          : NULL;
   return summary->wall_s < 1 ? g_strdup_printf(_("%zu frames in %.0f ms%s"), summary->frames,
                                                1e3 * summary->wall_s, told != NULL ? told : "")
                              : g_strdup_printf(_("%zu frames in %.1f s%s"), summary->frames,

@@ -241,6 +241,17 @@ static void append_warnings(GString *text, const SbWarnings *warnings) {
   }
 }
 
+// Names the file whose changes were not saved, and the choices.
+static void append_restore(GString *text, const SbBench *bench) {
+  g_auto(SbUnsaved) unsaved = {0};
+  (void)sb_autosave_read(&unsaved, bench->orphan);
+  g_autofree char *name = unsaved.path != NULL ? sb_printable(unsaved.path, strlen(unsaved.path))
+                                               : g_strdup(_("Untitled"));
+  g_string_append_printf(text, "%s\n\n", name);
+  g_string_append(text, _("Sealbench ended before they were saved.\n\ny  restore\nd  discard\n"
+                          "Esc  later"));
+}
+
 static char *popup_text(SbBench *bench, const char **title) {
   GString *text = g_string_new(NULL);
   const SbSummary *summary = sb_session_summary(bench->session);
@@ -279,8 +290,7 @@ static char *popup_text(SbBench *bench, const char **title) {
     break;
   case SB_POPUP_RESTORE:
     *title = _("Restore unsaved changes?");
-    g_string_assign(text, _("Sealbench ended before they were saved.\n\ny  restore\nd  discard\n"
-                            "Esc  later"));
+    append_restore(text, bench);
     break;
   case SB_POPUP_DISK:
     *title = _("Another program has changed the file");

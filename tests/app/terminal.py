@@ -381,7 +381,7 @@ def test_signals():
         same(terminal.stty(), terminal.modes, 'stty after a hang-up')
         # What was unsaved is offered, and comes back.
         terminal.start('quick-look.scene')
-        terminal.see('Restore unsaved changes')
+        terminal.see(r'Restore unsaved changes[^$]*quick-look\.scene[^$]*before they were saved')
         terminal.keys('y')
         terminal.see(r'edited[^$]*Section diameter +1\.62 mm')
         # With sanitizers the handler is theirs.

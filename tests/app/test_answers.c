@@ -497,7 +497,7 @@ static void test_pages(void) {
 }
 
 static void test_names(void) {
-  static const char *const names[] = {"", "-", ":memory:"};
+  static const char *const names[] = {"", "-", ":memory:", "file:x.store", "file:x?mode=memory"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     g_autoptr(GError) error = NULL;
     g_assert_null(sb_store_open(names[i], &error));

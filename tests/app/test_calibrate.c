@@ -126,6 +126,10 @@ static void calibrate(SbCalibration *out, const SbStudyFile *study) {
     g_test_message("%s", report.text);
   }
   g_assert_cmpint(status, ==, SB_OK);
+  for (size_t j = 0; j < out->parameters; j++) {
+    const SbCalibrated *one = &out->parameter[j];
+    g_assert_true(one->interval[0] < one->estimate && one->estimate < one->interval[1]);
+  }
 }
 
 #define FOUR                                                                                       \

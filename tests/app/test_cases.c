@@ -285,6 +285,22 @@ static void test_kept_results(void) {
   g_remove(study);
 }
 
+// So are sizes that cannot be built together: a chamber longer than the space between its grooves.
+static void test_overlap_results(void) {
+  static const char overlaps[] = "the dose chamber does not fit between the grooves: "
+                                 "stem.chamber_length is 6 mm";
+  CliResult run = CLI("run", "quick-look", "--set", "stem.chamber_length=6mm", "--json", "-");
+  g_assert_nonnull(strstr(run.err, overlaps));
+  g_autoptr(JsonNode) root = cli_parse(run.out);
+  g_assert_nonnull(strstr(run.out, "\"size-overlap\""));
+  const char *reason = json_node_get_string(cli_at(root, "cycle.verdict.returns.reason"));
+  g_assert_nonnull(strstr(reason, overlaps));
+  cli_clear(&run);
+  CliResult check = CLI("check", "quick-look", "--set", "stem.chamber_length=6mm", "--json", "-");
+  g_assert_nonnull(strstr(check.out, overlaps));
+  cli_clear(&check);
+}
+
 // A hardness states its modulus wherever a value may be written.
 static void test_hardness(void) {
   write_scene("[seal]\nmodulus = 70 IRHD\n[cases]\nsoft = seal.modulus = 40 Shore A\n"
@@ -321,6 +337,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cases/worst", test_worst);
   g_test_add_func("/cases/kept", test_kept);
   g_test_add_func("/cases/kept-results", test_kept_results);
+  g_test_add_func("/cases/overlap-results", test_overlap_results);
   g_test_add_func("/cases/hardness", test_hardness);
   g_test_add_func("/cases/shown", test_shown);
   g_test_add_func("/cases/failure", test_failure);

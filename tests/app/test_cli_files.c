@@ -308,15 +308,24 @@ static void test_head(void) {
   cli_remove_results(out);
 }
 
-// Scenes, tables and other files are read from pipes, also slow ones and named ones.
+// Scenes, tables and other files are read from pipes, also slow ones and named ones. The names in
+// them are those of the current folder.
 static void test_pipes(void) {
   static const char *const lines[] = {
-      "$SB plan <(sleep 0.2; cat own.valve) --json -", "$SB check <(cat own.valve) --json -",
+      "$SB plan <(sleep 0.2; cat own.valve) --json -",
+      "$SB check <(cat own.valve) --json -",
+      "$SB plan <(cat own.scene) --json -",
+      "$SB check <(cat own.study) --json -",
+      "$SB plan /dev/stdin --json - < own.scene",
       "mkfifo named; cat own.valve > named & $SB plan named --json -; rm named",
       "$SB compare quick-look --measured <(cat nul.csv) --json -"};
   g_autofree char *valve = NULL, *table = NULL;
   g_assert_true(g_file_get_contents(cli.valve, &valve, NULL, NULL));
   write_file("own.valve", valve);
+  write_file("own.scene", "[sealbench]\nformat = 1\nkind = scene\nvalve = own.valve\n");
+  write_file("own.study", "[sealbench]\nformat = 1\nkind = study\nscene = own.scene\n[vary]\n"
+                          "seal.modulus = levels 2 MPa, 3 MPa\n[study]\nmethod = grid\n"
+                          "figures = seals.outer.load_N\n");
   const char *assets = g_getenv("SEALBENCH_ASSETS");
   g_autofree char *bench = g_build_filename(assets, "series", "bench.csv", NULL);
   g_assert_true(g_file_get_contents(bench, &table, NULL, NULL));
@@ -330,6 +339,8 @@ static void test_pipes(void) {
     cli_clear(&result);
   }
   remove_file("own.valve");
+  remove_file("own.scene");
+  remove_file("own.study");
   remove_file("nul.csv");
 }
 

@@ -152,7 +152,7 @@ static void test_names(void) {
 
 static void test_refused(void) {
   g_autofree char *study = write_study(), *store = path_of("x.store");
-  static const char *const names[] = {":memory:", "-"};
+  static const char *const names[] = {":memory:", "-", "file:zz?mode=memory", "file:zz.store"};
   for (size_t i = 0; i < G_N_ELEMENTS(names); i++) {
     CliResult result = CLI("study", study, "-o", names[i], "-q");
     g_assert_cmpint(result.code, ==, 1);
@@ -259,6 +259,7 @@ static void test_certain(void) {
   g_assert_nonnull(strstr(result.out, "every valve fails: all of 200 samples are beyond the limit "
                                       "(sampling alone, 95 %: at least "));
   g_assert_null(strstr(result.out, "is not reached"));
+  g_assert_null(strstr(result.out, "e+0")); // 982 000 ppm
   g_assert_nonnull(strstr(result.out, "ppm (sampling alone, 95 %: "));
   cli_clear(&result);
   result = CLI("study", study, "--json", "-");

@@ -319,8 +319,9 @@ static void test_follows(void) {
   JsonNode *root = JSON("run", cli.scene, "--quiet", "--set", "fluid.name=hfa-134a", "--set",
                         "canister.temperature=24.3degC", "--set", "fluid.density=1200 kg/m3");
   JsonObject *follows = json_node_get_object(cli_at(root, "follows"));
-  // And the two sizes of the stem and the entry, which follow the bore.
-  g_assert_cmpuint(json_object_get_size(follows), ==, 4);
+  // And the two sizes of the stem and the entry, which follow the bore, and the chamber's length,
+  // which follows the grooves.
+  g_assert_cmpuint(json_object_get_size(follows), ==, 5);
   JsonNode *pressure = json_object_get_member(follows, "canister.pressure");
   cli_has_keys(pressure, "source tag");
   g_assert_cmpfloat_with_epsilon(cli_number(pressure, "value"), 0.55e6, 0.55e6 * 3e-3);

@@ -5,6 +5,7 @@
 
 #include <fcntl.h>
 #include <glib/gstdio.h>
+#include <math.h>
 #include <string.h>
 #include <sys/resource.h>
 #include <sys/stat.h>
@@ -272,6 +273,50 @@ static void test_options(void) {
   }
 }
 
+// Checks that a document's text is read without an issue and gives the same keys, with their
+// values.
+static void assert_reads_back(const SbDocument *document) {
+  g_autofree char *text = sb_document_to_text(document, NULL);
+  g_autofree char *found = complaints(text, strlen(text));
+  g_assert_cmpstr(found, ==, "");
+  g_autoptr(GPtrArray) issues = sb_issues_new();
+  SbDocument *copy = sb_document_parse(text, strlen(text), "x.valve", folder, issues);
+  for (int i = 0; i < SB_PARAM_COUNT; i++) {
+    const SbParamId id = (SbParamId)i;
+    g_assert_true(sb_document_gives(copy, id) == sb_document_gives(document, id));
+    g_assert_true(!sb_document_gives(copy, id) ||
+                  sb_document_value(copy, id) == sb_document_value(document, id));
+  }
+  sb_document_free(copy);
+}
+
+// Whatever keys are set, in whatever order, the text has each group once: groups are interleaved in
+// the catalogue. Then keys are added to that text and removed from it.
+static void test_written(void) {
+  g_autoptr(GRand) random = g_rand_new_with_seed(52);
+  for (int run = 0; run < 60; run++) {
+    g_autofree char *path = g_build_filename(folder, "written.valve", NULL);
+    g_autoptr(GPtrArray) issues = sb_issues_new();
+    SbDocument *document = sb_document_parse(VALVE, strlen(VALVE), "x.valve", folder, issues);
+    for (int round = 0; round < 3; round++) {
+      const double fraction = g_rand_double(random);
+      for (int i = 0; i < SB_PARAM_COUNT; i++) {
+        const SbParamId id = (SbParamId)i;
+        const double value = sb_document_value(document, id);
+        if (g_rand_double(random) < 0.1) {
+          sb_document_unset(document, id);
+        } else if (g_rand_double(random) < fraction && isfinite(value)) {
+          g_assert_true(sb_document_set_value(document, id, value, false, NULL));
+        }
+      }
+      assert_reads_back(document);
+      g_assert_true(sb_document_save(document, path, NULL));
+    }
+    sb_document_free(document);
+    g_assert_cmpint(g_remove(path), ==, 0);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   folder = g_dir_make_tmp("sealbench-test-XXXXXX", NULL);
@@ -282,6 +327,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/issues/files", test_files);
   g_test_add_func("/issues/flood", test_flood);
   g_test_add_func("/issues/options", test_options);
+  g_test_add_func("/issues/written", test_written);
   int result = g_test_run();
   g_rmdir(folder);
   g_free(folder);

@@ -180,6 +180,32 @@ static void test_round_trip(void) {
   g_rand_free(random);
 }
 
+// Defaults are printed with the digits that the catalogue has: -20 °C, not the double next to it.
+static void test_defaults(void) {
+  for (int id = 0; id < SB_PARAM_COUNT; id++) {
+    g_autofree char *text = sb_param_format((SbParamId)id, sb_param((SbParamId)id)->fallback);
+    size_t digits = 0;
+    for (const char *c = text; *c != '\0' && *c != ' ' && *c != 'e'; c++) {
+      digits += g_ascii_isdigit(*c);
+    }
+    if (sb_param((SbParamId)id)->kind == SB_PARAM_REAL && digits > 10) {
+      g_error("%s: %s", sb_param((SbParamId)id)->key, text);
+    }
+  }
+  static const struct {
+    double kelvin;
+    const char *text;
+  } rows[] = {{253.15, "-20 °C"}, {100, "-173.15 °C"}, {173.15, "-100 °C"}, {313.15, "40 °C"}};
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    double back;
+    g_autofree char *text = sb_quantity_format(rows[i].kelvin, "K", "°C");
+    g_assert_cmpstr(text, ==, rows[i].text);
+    g_assert_true(sb_quantity_parse(&back, text, "K", "°C", NULL));
+    g_assert_cmpfloat(back, ==, rows[i].kelvin);
+    g_assert_cmpfloat(sb_quantity_to_shown(back, "K", "°C"), ==, g_ascii_strtod(text, NULL));
+  }
+}
+
 // Points of the scale of temperature take °C, degC and K; differences K alone.
 static void test_temperatures(void) {
   static const char *const same[] = {"20 °C", "20degC", "293.15 K", "+20.0 celsius", "68 degF"};
@@ -435,6 +461,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/units/format", test_format);
   g_test_add_func("/units/steps", test_steps);
   g_test_add_func("/units/round-trip", test_round_trip);
+  g_test_add_func("/units/defaults", test_defaults);
   g_test_add_func("/units/temperatures", test_temperatures);
   g_test_add_func("/units/params", test_params);
   g_test_add_func("/units/numbers", test_numbers);

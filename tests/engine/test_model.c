@@ -305,6 +305,8 @@ static void test_kept(void) {
       {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER, 6.0e-3, 5.794e-3},
       {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER, 6.2e-3, 5.994e-3},
       {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_BORE_ENTRY_DIAMETER, 6.2e-3, 7.2e-3},
+      {SB_VALVE_PISTON, SB_P_STEM_SEAL_SPACING, SB_P_STEM_CHAMBER_LENGTH, 7e-3, 3.7e-3},
+      {SB_VALVE_GASKET, SB_P_STEM_SEAL_SPACING, SB_P_STEM_CHAMBER_LENGTH, 7e-3, 2.6e-3},
       {SB_VALVE_GASKET, SB_P_STEM_PRESSURE_DIAMETER, SB_P_GASKET_BORE_DIAMETER, 2.8e-3, 2.65e-3},
       {SB_VALVE_GASKET, SB_P_STEM_PRESSURE_DIAMETER, SB_P_GASKET_BORE_DIAMETER, 3.1e-3, 2.95e-3},
       // The stem of a gasket valve does not slide in the chamber.
@@ -324,6 +326,48 @@ static void test_kept(void) {
     // A value of its own stays.
     g_assert_cmpint(sb_params_set(&params, rows[i].id, 4e-3, NULL), ==, SB_OK);
     g_assert_cmpfloat(sb_params_get(&params, rows[i].id), ==, 4e-3);
+  }
+}
+
+// Sizes that cannot be built together have a warning each: a chamber between its grooves, and a
+// size that would follow another one out of its range.
+static void test_size_checks(void) {
+  static const struct {
+    SbValveKind kind;
+    double spacing, length, width; // NaN: not given
+    const char *code;              // of the only warning of this kind; NULL: none
+  } rows[] = {
+      {SB_VALVE_PISTON, NAN, NAN, NAN, NULL},
+      {SB_VALVE_PISTON, 3e-3, NAN, NAN, "size-limited"},
+      {SB_VALVE_PISTON, 3e-3, 2.9e-3, NAN, "size-overlap"},
+      {SB_VALVE_PISTON, NAN, 6e-3, NAN, "size-overlap"},
+      {SB_VALVE_PISTON, NAN, NAN, 3.5e-3, "size-overlap"},
+      {SB_VALVE_PISTON, NAN, 4.2e-3, NAN, NULL},
+      {SB_VALVE_GASKET, NAN, 6e-3, NAN, NULL},
+  };
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    const struct {
+      SbParamId id;
+      double value;
+    } given[] = {{SB_P_VALVE_KIND, rows[i].kind},
+                 {SB_P_STEM_SEAL_SPACING, rows[i].spacing},
+                 {SB_P_STEM_CHAMBER_LENGTH, rows[i].length},
+                 {SB_P_GLAND_AXIAL_WIDTH, rows[i].width}};
+    SbParams params;
+    sb_params_init(&params);
+    for (size_t k = 0; k < G_N_ELEMENTS(given); k++) {
+      g_assert_true(isnan(given[k].value) ||
+                    sb_params_set(&params, given[k].id, given[k].value, NULL) == SB_OK);
+    }
+    const char *found = NULL;
+    for (int k = 0; k < SB_SIZE_CHECKS; k++) {
+      SbParamId id;
+      char text[SB_TEXT];
+      const char *code = sb_params_size_check(text, &id, &params, k);
+      g_assert_true(code == NULL || (found == NULL && id == SB_P_STEM_CHAMBER_LENGTH));
+      found = code != NULL ? code : found;
+    }
+    g_assert_cmpstr(found, ==, rows[i].code);
   }
 }
 
@@ -429,6 +473,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/model/nothing-left", test_nothing_left);
   g_test_add_func("/model/gasket-sizes", test_gasket_sizes);
   g_test_add_func("/model/kept", test_kept);
+  g_test_add_func("/model/size-checks", test_size_checks);
   g_test_add_func("/model/pressure-maps", test_pressure_maps);
   g_test_add_func("/model/storage", test_storage);
   g_test_add_func("/model/gland", test_gland);

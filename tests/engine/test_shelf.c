@@ -9,7 +9,7 @@
 #include <string.h>
 
 static const double BARRER = 3.35e-16, YEAR = 365 * 86400.0, ZERO = 273.15;
-enum { R134A = 1, PERSSON = 1, SETTINGS_MAX = 16 };
+enum { R134A = 1, OTHER_PROPELLANT = 2, PERSSON = 1, SETTINGS_MAX = 16 };
 
 // The valve with HFA-134a, 50 barrer and the surface that knows full contact, at 25 degC.
 static const Setting usual[] = {{SB_P_FLUID_NAME, R134A},
@@ -219,7 +219,6 @@ static void test_not_asked(void) {
 // A figure of another fluid is used with a warning only: stated by fluid.figures, left as it was
 // when an override changes the propellant, or known from the rubber to be another one's.
 static void test_other_fluid(void) {
-  enum { OTHER_PROPELLANT = 2 }; // HFA-227ea
   const double own = 47 * 3.35e-16;
   SbRubberSheet sheet = {.name = "sheet", .count = 1};
   sheet.figure[0].id = SB_P_RUBBER_PERMEABILITY;
@@ -269,9 +268,40 @@ static void test_other_fluid(void) {
   }
 }
 
+// Values that the catalogue infers for HFA-134a have a warning with each other fluid, where a run
+// uses them: the diffusivity for the time lag.
+static void test_catalogue_fluid(void) {
+  static const struct {
+    SbParamId id;
+    double other; // a value of another fluid
+  } rows[] = {{SB_P_RUBBER_DIFFUSION, 6e-12},
+              {SB_P_FLUID_PRESSURE_VISCOSITY, 3e-9},
+              {SB_P_FLUID_VAPOUR_VISCOSITY, 10e-6}};
+  for (size_t i = 0; i < G_N_ELEMENTS(rows); i++) {
+    for (int fluid = 0; fluid <= OTHER_PROPELLANT; fluid++) {
+      const bool foreign = fluid != 0 && fluid != R134A;
+      SbParams params;
+      sb_params_init(&params);
+      g_assert_cmpint(sb_params_set(&params, SB_P_FLUID_NAME, fluid, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_params_other_fluid(&params, rows[i].id), ==, foreign ? R134A : -1);
+      const double same = sb_params_get(&params, rows[i].id);
+      g_assert_cmpint(sb_params_set(&params, rows[i].id, same, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_params_other_fluid(&params, rows[i].id), ==, foreign ? R134A : -1);
+      // A change of the fluid does not make the rubber's other figures those of HFA-134a.
+      SbParams swapped = params;
+      g_assert_cmpint(sb_params_set(&swapped, SB_P_FLUID_NAME, OTHER_PROPELLANT, NULL), ==, SB_OK);
+      sb_params_keep_fluid(&swapped, &params);
+      g_assert_false(swapped.given[SB_P_FLUID_FIGURES]);
+      g_assert_cmpint(sb_params_set(&params, rows[i].id, rows[i].other, NULL), ==, SB_OK);
+      g_assert_cmpint(sb_params_other_fluid(&params, rows[i].id), ==, -1);
+    }
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/shelf/by-hand", test_by_hand);
+  g_test_add_func("/shelf/catalogue-fluid", test_catalogue_fluid);
   g_test_add_func("/shelf/signs", test_signs);
   g_test_add_func("/shelf/ring", test_ring);
   g_test_add_func("/shelf/unknown", test_unknown);

@@ -202,7 +202,7 @@ typedef struct {
   double stop;     // energy dissipated at the stops [J]
   double loop;     // area of the force-displacement loop: energy_loss_J [J]
   // |external - friction - stored - seal - kinetic - stop| divided by external_max; without
-  // external work divided by the largest |stored|.
+  // external work divided by the largest |stored|. 0: rounding (sb_cycle_closure()).
   double closure;
 } SbEnergy;
 

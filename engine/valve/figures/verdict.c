@@ -207,6 +207,22 @@ static SbVerdict judge_return(const SbSummary *summary, const SbModel *model) {
   return out;
 }
 
+// Sizes that do not belong together change the forces, those of the chamber the dose: the verdict
+// on the return states them if it is yes, that on the dose states its own if it is yes.
+static void state_sizes(SbVerdict *verdict, const SbModel *model) {
+  for (int i = 0; i < SB_SIZE_CHECKS; i++) {
+    char text[SB_TEXT];
+    SbParamId id;
+    const bool wrong = sb_params_size_check(text, &id, &model->params, i) != NULL;
+    const bool dose =
+        id == SB_P_STEM_CHAMBER_LENGTH && verdict[SB_VERDICT_DOSES].ok == SB_ANSWER_YES;
+    SbVerdict *of = &verdict[dose ? SB_VERDICT_DOSES : SB_VERDICT_RETURNS];
+    if (wrong && of->ok == SB_ANSWER_YES && of->reason[0] == '\0') {
+      sb_message(of->reason, SB_TEXT, "%s", text);
+    }
+  }
+}
+
 void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   SbVerdict *verdict = summary->verdict;
   const int margin_figure = sb_figure_find("cycle.force_return_margin_N");
@@ -256,14 +272,5 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     }
     sb_verdict_take_worse(&verdict[kind], &of);
   }
-  // A size that stays although another one changed with the drawing changes the forces.
-  SbVerdict *returns = &verdict[SB_VERDICT_RETURNS];
-  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
-    char text[SB_TEXT];
-    SbParamId id;
-    if (returns->ok == SB_ANSWER_YES && returns->reason[0] == '\0' &&
-        sb_params_kept(text, &id, &model->params, i)) {
-      sb_message(returns->reason, SB_TEXT, "%s", text);
-    }
-  }
+  state_sizes(verdict, model);
 }

@@ -273,12 +273,33 @@ void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings 
   }
 }
 
+void sb_model_warn_fluid(const SbModel *model, SbParamId id, SbWarnings *warnings) {
+  const int other = sb_params_other_fluid(&model->params, id);
+  if (other >= 0) {
+    sb_warn(warnings, "fluid-property", sb_input(id),
+            "%s is that of %s, not of the valve's %s (fluid.figures): its effects are those of "
+            "another fluid",
+            sb_param(id)->key, sb_fluids[other].label, sb_fluids[model->fluid].label);
+  }
+}
+
+// Whether every run of the model uses a parameter that depends on the fluid.
+static bool uses_figure(const SbModel *model, SbParamId id) {
+  const bool stored = model->storage_time > 0;
+  return id == SB_P_RUBBER_SWELL_MASS          ? stored
+         : id == SB_P_RUBBER_DIFFUSION         ? stored && model->rubber.swell_mass > 0
+         : id == SB_P_HOUSING_PERMEABILITY     ? model->shelf.plastic_length > 0
+         : id == SB_P_FLUID_PRESSURE_VISCOSITY ? model->barus
+                                               : id != SB_P_FLUID_VAPOUR_VISCOSITY;
+}
+
 void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
-  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+  for (int i = 0; i < SB_SIZE_CHECKS; i++) {
     char text[SB_TEXT];
     SbParamId id;
-    if (sb_params_kept(text, &id, &model->params, i)) {
-      sb_warn(warnings, "size-kept", sb_input(id), "%s", text);
+    const char *code = sb_params_size_check(text, &id, &model->params, i);
+    if (code != NULL) {
+      sb_warn(warnings, code, sb_input(id), "%s", text);
     }
   }
   sb_model_warn_modulus(model, model->temperature, warnings);
@@ -307,15 +328,8 @@ void sb_model_warn(const SbModel *model, SbWarnings *warnings) {
   }
   for (int i = 0; sb_params_of_fluid(i) >= 0; i++) {
     const SbParamId id = (SbParamId)sb_params_of_fluid(i);
-    const int other = sb_params_other_fluid(&model->params, id);
-    const bool idle = (id == SB_P_RUBBER_SWELL_MASS && !(model->storage_time > 0)) ||
-                      (id == SB_P_HOUSING_PERMEABILITY && !(model->shelf.plastic_length > 0));
-    if (other >= 0 && !idle) {
-      sb_warn(
-          warnings, "fluid-property", sb_input(id),
-          "%s is that of %s, not of the valve's %s (fluid.figures): losses and swell are those of "
-          "another fluid",
-          sb_param(id)->key, sb_fluids[other].label, sb_fluids[model->fluid].label);
+    if (uses_figure(model, id)) {
+      sb_model_warn_fluid(model, id, warnings);
     }
   }
   SbFluidState state;

@@ -152,29 +152,34 @@ static bool from_choice(SbParamDefault *out, const SbParams *params, SbParamId i
 }
 
 static const struct {
-  SbParamId id, giver, tolerance; // tolerance: of the giver
-  int kind;                       // of the valve
+  SbParamId id, giver, tolerance;
+  int kind; // of the valve
   double own, given;
   const char *source;
 } keeps[] = {
-#define SB_KEEPS(id, giver, kind, own, given, source)                                              \
-  {SB_P_##id, SB_P_##giver, SB_P_##giver##_TOLERANCE, kind, own, given, source},
+#define SB_KEEPS(id, giver, tolerance, kind, own, given, source)                                   \
+  {SB_P_##id, SB_P_##giver, SB_P_##tolerance, kind, own, given, source},
 #include "engine/valve/model/params.def"
 };
+
+// The size of a row that is not given, with no regard to its range. To 1e-15 m: the difference of
+// decimals is a decimal (6.2 less 0.206 mm is 5.994 mm).
+static double followed(const SbParams *params, int row) {
+  const double value =
+      keeps[row].own + (sb_params_get(params, keeps[row].giver) - keeps[row].given);
+  return round(value * 1e15) / 1e15;
+}
 
 // A size that differs from another one by what their defaults differ by. At the other's default it
 // is exactly its own.
 static bool from_size(SbParamDefault *out, const SbParams *params, SbParamId id) {
   for (int i = 0; i < SB_KEEPS_COUNT; i++) {
     if (keeps[i].id == id && (int)sb_params_get(params, SB_P_VALVE_KIND) == keeps[i].kind) {
-      *out = (SbParamDefault){.value = keeps[i].own +
-                                       (sb_params_get(params, keeps[i].giver) - keeps[i].given),
+      *out = (SbParamDefault){.value = followed(params, i),
                               .from = table[keeps[i].giver].key,
                               .giver = (int)keeps[i].giver,
                               .source = keeps[i].source,
                               .tag = table[id].tag};
-      // To 1e-15 m: the difference of decimals is a decimal (6.2 less 0.206 mm is 5.994 mm).
-      out->value = round(out->value * 1e15) / 1e15;
       out->value = fmin(fmax(out->value, table[id].min), table[id].max);
       return true;
     }
@@ -188,19 +193,47 @@ bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind) {
   return keeps[index].kind == kind;
 }
 
-bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, int index) {
+// Whether the dose chamber is longer than the stem between its grooves.
+static bool chamber_overlaps(char text[SB_TEXT], const SbParams *params) {
+  const double length = sb_params_get(params, SB_P_STEM_CHAMBER_LENGTH);
+  const double space =
+      sb_params_get(params, SB_P_STEM_SEAL_SPACING) - sb_params_get(params, SB_P_GLAND_AXIAL_WIDTH);
+  if ((int)sb_params_get(params, SB_P_VALVE_KIND) != SB_VALVE_PISTON || length <= space + 1e-9) {
+    return false;
+  }
+  sb_text(text, SB_TEXT,
+          "the dose chamber does not fit between the grooves: %s is %.6g mm, %s less %s leaves "
+          "%.6g mm",
+          table[SB_P_STEM_CHAMBER_LENGTH].key, 1e3 * length, table[SB_P_STEM_SEAL_SPACING].key,
+          table[SB_P_GLAND_AXIAL_WIDTH].key, 1e3 * space);
+  return true;
+}
+
+const char *sb_params_size_check(char text[SB_TEXT], SbParamId *id, const SbParams *params,
+                                 int index) {
+  if (index == SB_KEEPS_COUNT) {
+    *id = SB_P_STEM_CHAMBER_LENGTH;
+    return chamber_overlaps(text, params) ? "size-overlap" : NULL;
+  }
   SbParamId giver;
   const bool row = sb_params_keeps(id, &giver, index, (int)sb_params_get(params, SB_P_VALVE_KIND));
   const double now = sb_params_get(params, giver), drawn = params->drawn[index];
   const double scatter = sb_params_get(params, keeps[index].tolerance) + 1e-12;
+  if (row && !params->given[*id] && followed(params, index) != sb_params_get(params, *id)) {
+    sb_text(text, SB_TEXT,
+            "%s follows %s to %.6g mm, which is out of its range: it is %.6g mm; set it too",
+            table[*id].key, table[giver].key, 1e3 * followed(params, index),
+            1e3 * sb_params_get(params, *id));
+    return "size-limited";
+  }
   if (!row || !params->given[*id] || !(drawn > 0) || fabs(now - drawn) <= scatter) {
-    return false;
+    return NULL;
   }
   sb_text(text, SB_TEXT,
           "%s stays at %.6g mm while %s changes from %.6g mm to %.6g mm; set it too if the drawing "
           "changes both",
           table[*id].key, 1e3 * params->value[*id], table[giver].key, 1e3 * drawn, 1e3 * now);
-  return true;
+  return "size-kept";
 }
 
 static bool is_kept(SbParamId id) {
@@ -258,11 +291,28 @@ bool sb_param_of_rubber(SbParamId id) {
          id == SB_P_SEAL_POISSON_RATIO || id == SB_P_SEAL_MOONEY_SHARE;
 }
 
+// Parameters that depend on the fluid. `fluid`: that of the catalogue's default (a choice of
+// fluid.name; custom: the thesis' HFA-134a), -1: the default is of none.
+enum { CUSTOM, HFA_134A };
+static const struct {
+  SbParamId id;
+  int fluid;
+} figures[] = {{SB_P_RUBBER_SWELL_MASS, -1},
+               {SB_P_RUBBER_PERMEABILITY, -1},
+               {SB_P_HOUSING_PERMEABILITY, -1},
+               {SB_P_RUBBER_DIFFUSION, HFA_134A},
+               {SB_P_FLUID_PRESSURE_VISCOSITY, HFA_134A},
+               {SB_P_FLUID_VAPOUR_VISCOSITY, HFA_134A}};
+
 int sb_params_of_fluid(int index) {
-  static const SbParamId figures[] = {SB_P_RUBBER_SWELL_MASS, SB_P_RUBBER_PERMEABILITY,
-                                      SB_P_HOUSING_PERMEABILITY};
   const int count = (int)(sizeof figures / sizeof figures[0]);
-  return index < count ? (int)figures[index] : -1;
+  return index < count ? (int)figures[index].id : -1;
+}
+
+// Whether a figure has the value of the catalogue, whose fluid is known.
+static bool is_of_catalogue(const SbParams *params, int index) {
+  const SbParamId id = figures[index].id;
+  return figures[index].fluid >= 0 && sb_params_get(params, id) == table[id].fallback;
 }
 
 // Fluid of which figures that depend on the fluid are taken from a rubber.
@@ -293,6 +343,9 @@ int sb_params_other_fluid(const SbParams *params, SbParamId id) {
   if (sb_params_of_fluid(i) < 0 || !(sb_params_get(params, id) > 0)) {
     return -1;
   }
+  if (is_of_catalogue(params, i)) {
+    return own == CUSTOM || own == figures[i].fluid ? -1 : figures[i].fluid;
+  }
   if (stated != own) {
     return stated;
   }
@@ -310,7 +363,7 @@ void sb_params_keep_fluid(SbParams *params, const SbParams *base) {
   for (int i = 0; sb_params_of_fluid(i) >= 0; i++) {
     const int id = sb_params_of_fluid(i);
     if (params->given[id] && base->given[id] && params->value[id] == base->value[id] &&
-        params->value[id] > 0) {
+        params->value[id] > 0 && !is_of_catalogue(params, i)) {
       params->value[SB_P_FLUID_FIGURES] = from;
       params->given[SB_P_FLUID_FIGURES] = true;
     }

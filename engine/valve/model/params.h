@@ -216,19 +216,27 @@ void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id
 // size to *id and the size that it follows to *giver. Returns false if the row is for another kind.
 bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind);
 
-// Writes the size of row `index` of SB_KEEPS to *id. Returns whether it is given while the size
-// that it would follow differs from params->drawn[index] (> 0) by more than the tolerance of that
-// size; then writes a sentence for the user to `text`.
-bool sb_params_kept(char text[SB_TEXT], SbParamId *id, const SbParams *params, int index);
+// Number of checks of sizes that belong together: one for each row SB_KEEPS, then the chamber.
+enum { SB_SIZE_CHECKS = SB_KEEPS_COUNT + 1 };
+
+// Writes the size of check `index` (below SB_SIZE_CHECKS) to *id. Returns NULL if the size fits the
+// others; else the code of the warning, and writes a sentence for the user to `text`. "size-kept":
+// the size of a row SB_KEEPS is given while the size that it would follow differs from
+// params->drawn[index] (> 0) by more than the tolerance of the row. "size-limited": the size
+// follows another one out of its own range, whose end applies. "size-overlap": the dose chamber is
+// longer than the stem between the grooves.
+const char *sb_params_size_check(char text[SB_TEXT], SbParamId *id, const SbParams *params,
+                                 int index);
 
 // Returns the fluid (a choice of fluid.name) for which the value of the fluid-dependent
-// parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of fluid.figures, or
-// the fluid for which the named rubber has the same value. Returns -1 if the value is meant for
-// fluid.name, if the parameter is 0, or if `id` does not depend on the fluid.
+// parameter `id` is meant, if this is not the fluid of fluid.name: the fluid of the catalogue's
+// default, whether it is given or not; the fluid of fluid.figures; or the fluid for which the named
+// rubber has the same value. Returns -1 if the value is meant for fluid.name, if the parameter is
+// 0, or if `id` does not depend on the fluid.
 int sb_params_other_fluid(const SbParams *params, SbParamId id);
 
-// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0), a swell or
-// permeability; -1 after the last one.
+// Returns the SbParamId of the fluid-dependent parameter number `index` (from 0): a property of the
+// liquid or vapour, or of rubber or plastic in it; -1 after the last one.
 int sb_params_of_fluid(int index);
 
 // Call it after changes to `params`, a copy of `base`. Sets fluid.figures of `params` to the fluid

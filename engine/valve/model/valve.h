@@ -374,6 +374,10 @@ void sb_model_modulus(SbModulusChange *out, const SbModel *model, double tempera
 // "modulus-entropic" if entropy elasticity changes it so much, or replaces a known slope.
 void sb_model_warn_modulus(const SbModel *model, double temperature, SbWarnings *warnings);
 
+// Adds the warning "fluid-property" if the value of the fluid-dependent parameter `id` is that of
+// another fluid (sb_params_other_fluid()).
+void sb_model_warn_fluid(const SbModel *model, SbParamId id, SbWarnings *warnings);
+
 // Adds the warnings of the model itself: storage of the rings, fluid.
 void sb_model_warn(const SbModel *model, SbWarnings *warnings);
 

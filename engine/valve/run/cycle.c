@@ -441,5 +441,10 @@ void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out) {
   // A spring with equal initial and final state stores nothing; the remainder is rounding.
   out->stored = fabs(out->stored) <= 16 * DBL_EPSILON * out->external_max ? 0 : out->stored;
   double sum = out->friction + out->stored + out->seal + out->kinetic + out->stop;
-  out->closure = out->external_max > 0 ? fabs(out->external - sum) / out->external_max : 0;
+  out->closure =
+      sb_cycle_closure(out->external_max > 0 ? fabs(out->external - sum) / out->external_max : 0);
+}
+
+double sb_cycle_closure(double residual) {
+  return residual <= 1e-10 ? 0 : residual;
 }

@@ -149,6 +149,10 @@ double sb_cycle_sliding_margin(const SbCycle *cycle, double top);
 // margin of every motion model. With ports both the vented and the full chamber are considered.
 double sb_cycle_return_margin(const SbCycle *cycle, double top);
 
+// Returns the closure of an energy balance, relative to its largest work: `residual`, or 0 if it is
+// rounding, at most 1e-10 of a sum of some thousand products.
+double sb_cycle_closure(double residual);
+
 // Computes the energies of a built cycle, each by its own quadrature, so that `closure` checks the
 // motion; `kinetic` and `stop` are 0.
 void sb_cycle_energy(const SbCycle *cycle, SbEnergy *out);

@@ -213,7 +213,7 @@ void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
       .kinetic = energy->kinetic,
       .stop = energy->stop,
       .loop = energy->drive - energy->machine,
-      .closure = energy->closure,
+      .closure = sb_cycle_closure(energy->closure),
   };
   summary->steps = (size_t)(counters->segments + counters->steps);
   summary->rejected_steps = (size_t)counters->rejected;

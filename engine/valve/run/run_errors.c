@@ -404,11 +404,11 @@ SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report) {
     snprintf(others, sizeof others, " (and %d other estimates are above 30 %%)", count - 1);
   }
   sb_warn(&summary->warnings, "error-estimate-large", sb_input(SB_P_OUTPUT_TOLERANCE),
-          "the estimated error of %s is %.3g %%%s: reduce output.tolerance, or add output.frames",
+          "the estimated error of %s is %.0f %%%s: reduce output.tolerance, or add output.frames",
           sb_figure(worst)->path, 100 * error, others);
   if (error > SB_ERROR_USELESS && status == SB_OK) {
     status = sb_fail_input(report, SB_ERROR_NOT_CONVERGED, sb_input(SB_P_OUTPUT_TOLERANCE),
-                           "the estimated error of %s is %.3g %%, more than the value",
+                           "the estimated error of %s is %.0f %%, more than the value",
                            sb_figure(worst)->path, 100 * error);
   }
   return status;

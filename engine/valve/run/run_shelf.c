@@ -98,6 +98,12 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
     sb_shelf_rates(&rates, model, &rest);
     fill(&summary->shelf, model, seal, &rest, &rates);
     warn_typical(&summary->shelf, &summary->warnings, model);
+    if (rest.touches) { // the time lag
+      sb_model_warn_fluid(model, SB_P_RUBBER_DIFFUSION, &summary->warnings);
+    }
+    if (model->shelf.vapour && rates.interface > 0) {
+      sb_model_warn_fluid(model, SB_P_FLUID_VAPOUR_VISCOSITY, &summary->warnings);
+    }
     if (isnan(rest.error) && rest.touches) {
       sb_warn(&summary->warnings, "shelf-slab", sb_input(SB_P_MODELS_FIT),
               "the ring permeates as a slab of its height and volume: a solved ring (models.fit = "
