@@ -492,6 +492,26 @@ static void test_stiff(void) {
   }
 }
 
+// ---- several cycles ----
+
+// The return margin has the static friction after the rest of one press, however many follow.
+static void test_dwell_of_presses(void) {
+  double margin[2];
+  for (int cycles = 1; cycles <= 2; cycles++) {
+    const Setting settings[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                                {SB_P_DRIVE_HOLD_TIME, 10},
+                                {SB_P_FRICTION_DWELL_GAIN, 0.2},
+                                {SB_P_DRIVE_CYCLES, cycles}};
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, settings, G_N_ELEMENTS(settings));
+    const SbSummary *summary = sb_run_summary(run);
+    margin[cycles - 1] = summary->force_return_margin;
+    g_assert_cmpint(summary->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_NO);
+    sb_run_destroy(run);
+  }
+  g_assert_cmpfloat(margin[0], <, 0);
+  assert_near(margin[1], margin[0], 1e-6 * fabs(margin[0]));
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-dynamic/straight-bands", test_straight_bands);
@@ -510,5 +530,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/finger-leaves", test_finger_leaves);
   g_test_add_func("/run-dynamic/refused", test_refused);
   g_test_add_func("/run-dynamic/stiff", test_stiff);
+  g_test_add_func("/run-dynamic/dwell-of-presses", test_dwell_of_presses);
   return g_test_run();
 }

@@ -307,7 +307,8 @@ typedef struct {
 #include "engine/valve/figures/figures.def"
   SbStatus status; // what sb_run_execute() returned
   SbOutcome outcome;
-  bool returns;                      // the outcome is SB_OUTCOME_RETURNED
+  bool returns; // the outcome is SB_OUTCOME_RETURNED
+  double dwell; // rest before the return whose static friction the return margin has [s]
   SbStageMark stage[SB_STAGE_COUNT]; // by SbStage
   SbSealState seal[SB_SEAL_COUNT];   // by SB_OUTER, SB_INNER: state in the middle of B-C
   SbContacts contact[SB_SEAL_COUNT]; // by SB_OUTER, SB_INNER

@@ -47,6 +47,10 @@ static bool outcome_contradicts(const Check *check) {
     wrong = "cycle.force_return_min_N";
   } else if ((never || stuck) && isfinite(s->leakage_carried)) {
     wrong = "cycle.leakage_carried_all_actuations_m3";
+  } else if (isfinite(s->force_return_margin) && s->stage[SB_STAGE_D].reached &&
+             s->stage[SB_STAGE_E].reached &&
+             s->stage[SB_STAGE_E].time > s->stage[SB_STAGE_D].time + 1e-6 && !(s->dwell > 0)) {
+    wrong = "cycle.force_return_margin_N"; // it has the friction of no dwell
   } else if (never && (s->dose_mass > 0 || isfinite(s->leakage_per_cycle))) {
     wrong = "cycle.dose_mass_kg";
   }

@@ -25,6 +25,14 @@ static double relative(double a, double b, double scale) {
   return scale > 0 ? fabs(a - b) / scale : 0;
 }
 
+// Returns the time between the end of an in-stroke and the first reverse slip [s]; without such a
+// slip until the drive turns in that actuation.
+static double dwell_of(const SbRecorder *r) {
+  const SbDriveTimes *times = &r->valve.times;
+  const double before = times->period > 0 ? floor(r->rested / times->period) * times->period : 0;
+  return r->mark[SB_STAGE_E].reached ? r->dwell : fmax(before + times->turn - r->rested, 0);
+}
+
 // Sets a motion's outcome and the figures that follow from it; `out` has its stages.
 static SbStatus conclude_motion(SbSummary *out, const SbRecorder *r, SbReport *report) {
   SbRun *run = r->run;
@@ -32,15 +40,13 @@ static SbStatus conclude_motion(SbSummary *out, const SbRecorder *r, SbReport *r
   const double start = r->model.start_position;
   SbDynamicsSample last;
   sb_dynamics_sample(&r->motion, &last, NULL);
-  const double leaves =
-      r->mark[SB_STAGE_E].reached ? r->mark[SB_STAGE_E].time : fmax(r->valve.times.turn, r->rested);
   SbRunEnd end = {.start = start,
                   .top = fmax(r->top, start),
                   .position = last.position,
                   .speed = last.speed,
                   .force = last.drive_force,
                   .bonded = r->model.drive_bonded,
-                  .dwell = start > 0 ? model->rest : fmax(leaves - r->rested, 0),
+                  .dwell = start > 0 ? model->rest : dwell_of(r),
                   .press = r->press,
                   // A fast return's viscous friction takes more than that at the films' speed.
                   .sliding_least = r->return_least};

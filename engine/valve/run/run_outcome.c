@@ -76,6 +76,7 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
     give_reasons(summary, end);
     return SB_OK;
   }
+  summary->dwell = end->dwell;
   SbStatus status = sb_cycle_rest(&run->cycle, end->dwell, report);
   if (status != SB_OK) {
     return status;

@@ -86,6 +86,7 @@ static void mark(SbRecorder *r, SbStage stage, const SbMotionEvent *event) {
     return;
   }
   r->mark[stage] = (SbStageMark){true, event->time, event->position, event->drive_force, 0};
+  r->dwell = stage == SB_STAGE_E ? event->time - r->rested : r->dwell;
   // The dwell before a break-away and that at the stop are not part of sliding.
   const bool now = stage == SB_STAGE_B || stage == SB_STAGE_D || stage == SB_STAGE_E;
   SbFrame *frame = add_frame(r, now);

@@ -22,7 +22,8 @@ typedef struct {
   double return_least;          // smallest force that pushed the stem out while it slid back [N]
   double press;                 // force_peak when the stem meets the stop [N]
   double top;                   // largest displacement [m]
-  double rested;                // time at which the in-stroke came to rest [s]
+  double rested;                // time at which the last in-stroke came to rest [s]
+  double dwell;                 // from the in-stroke's rest to stage E [s]
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
   double leak_last, leak_last_time; // where the stem was last seen, and when it came there
   double home;                // time at which the stem is back on its rest stop [s], 0: not yet
