@@ -190,7 +190,7 @@ typedef struct {
   long failure;                // number from 1 of the actuation without return; 0: none
 } SbLife;
 
-// Energies of the cycle, each integrated separately.
+// Energies of the cycle, each integrated separately; of a motion with several cycles their mean.
 typedef struct {
   // Work of drive and canister pressure on the stem, and the largest magnitude of this work during
   // the cycle [J]; both NaN if only a spring moves the stem.

@@ -61,7 +61,15 @@ static bool outcome_contradicts(const Check *check) {
   return wrong != NULL;
 }
 
-// Forces against the peak.
+// Largest area of the loop of one press with the summary's peak force [J]: a machine's platen or a
+// finger moves in once, to the stop and what it and the machine yield.
+static double largest_loop(const Check *check) {
+  const SbModel *model = check->model;
+  const double peak = check->summary->force_peak, hold = fmax(model->reversal_force, 1.1 * peak);
+  return 1.01 * peak * (model->stroke + hold / model->stiffness + 2 * hold / model->stop_stiffness);
+}
+
+// Forces against the peak, and the energy of one cycle.
 static bool motion_contradicts(const Check *check) {
   const SbSummary *s = check->summary;
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
@@ -72,6 +80,14 @@ static bool motion_contradicts(const Check *check) {
               name, mark->force, s->force_peak);
       return true;
     }
+  }
+  const bool presses =
+      check->model->drive == SB_MODEL_DRIVE_MACHINE || check->model->drive == SB_MODEL_DRIVE_HAND;
+  if (presses && sb_motion_kind(check->model)->valve &&
+      exceeds(s->energy.loop, largest_loop(check))) {
+    sb_text(check->text, check->size, "the loop's area, %.9g J, is that of more than one cycle",
+            s->energy.loop);
+    return true;
   }
   if (exceeds(s->force_press, s->force_peak) || exceeds(s->force_breakaway, s->force_press)) {
     sb_text(check->text, check->size, "break-away %.9g N, press force %.9g N and peak %.9g N",

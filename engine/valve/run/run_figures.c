@@ -202,15 +202,19 @@ double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
   return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
 }
 
-// Returns the time [s] for which the vent is open: on the return, or in both directions; INFINITY
-// if it is open at the end. Uses every `step`-th frame.
+// Returns the time [s] for which the vent is open in the first actuation: on the return, or in both
+// directions; INFINITY if it is open at the end. Uses every `step`-th frame.
 static double vent_time(const SbRun *run, double low, double high, size_t step) {
   const SbModel *model = run->model;
   const bool both_ways = !model->vent_on_return;
   bool open = false;
   double time = 0;
-  for (size_t i = 0, next; i + 1 < run->count; i = next) {
-    next = i + step < run->count ? i + step : run->count - 1;
+  size_t count = run->count;
+  while (run->period > 0 && count > 1 && run->frames[count - 1].time > run->period) {
+    count--;
+  }
+  for (size_t i = 0, next; i + 1 < count; i = next) {
+    next = i + step < count ? i + step : count - 1;
     const SbFrame *from = &run->frames[i], *to = &run->frames[next];
     const double a = from->displacement, b = to->displacement;
     const double least = fmin(a, b), most = fmax(a, b);

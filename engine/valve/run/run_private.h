@@ -165,8 +165,11 @@ struct SbRun {
   double motion_error[SB_FIGURE_COUNT], speed_error[2], leak_error, kept_error;
   double compared_error[SB_SEAL_COUNT]; // relative error of the film solved for comparison
   SbSealState shown[SB_SEAL_COUNT][2];  // states for the seals' figures, by way
-  SbBore bore;                          // layers of the last motion under the outer seal
-  SbFilm film;                          // work memory for films that belong to no state
+  // Layers of the last motion under the outer seal. At its end the volumes are those of one
+  // actuation: the mean of all.
+  SbBore bore;
+  double period; // time of one actuation of a motion with several [s]; 0: the motion is one
+  SbFilm film;   // work memory for films that belong to no state
   // Largest error of a state's kinetic, static friction [N].
   double friction_error[SB_SEAL_COUNT], static_error[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS]; // by sb_run_profile_slot()
@@ -282,9 +285,10 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 // Computes frames, stages, energies and leakage of the motion with inertia (run_dynamic.c).
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Sets energies and step counts of a motion with inertia in the summary (run_dynamic.c).
+// Sets the step counts of a motion with inertia in the summary, and the energies of one of its
+// `cycles`: the mean of all (run_dynamic.c).
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
-                        const SbDynamicsCounters *counters);
+                        const SbDynamicsCounters *counters, int cycles);
 
 // Computes *speed, that of the stem in the middle of B-C, a magnitude [m/s], by a motion with
 // inertia. If the stem does not get there it is the mean speed from B to D, else from E to F, else
