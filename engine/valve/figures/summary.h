@@ -308,6 +308,7 @@ typedef struct {
   SbStatus status; // what sb_run_execute() returned
   SbOutcome outcome;
   bool returns; // the outcome is SB_OUTCOME_RETURNED
+  bool closes;  // the motion ends where it began: a full cycle
   double dwell; // rest before the return whose static friction the return margin has [s]
   SbStageMark stage[SB_STAGE_COUNT]; // by SbStage
   SbSealState seal[SB_SEAL_COUNT];   // by SB_OUTER, SB_INNER: state in the middle of B-C

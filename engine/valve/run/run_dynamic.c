@@ -412,8 +412,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status == SB_OK) {
     status = conclude_motion(summary, &r, report);
   }
-  const bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
-  sb_run_leakage(summary, model, &run->bore, back);
+  sb_run_leakage(summary, model, &run->bore);
   fill_energy(summary, &r, &counters);
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
   if (counters.grouped > 0) {
