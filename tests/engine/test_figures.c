@@ -347,6 +347,78 @@ static void test_one_way(void) {
   }
 }
 
+// Figures of a cycle that did not happen are missing with its outcome as the reason: of a stem that
+// sticks where its motion begins, and of one that delivers nothing.
+static void test_stuck_without_cycle(void) {
+  const Setting cases[][3] = {
+      {{SB_P_CANISTER_PRESSURE, -0.05e6}, {SB_P_OUTPUT_FRAMES, 60}, {SB_P_OUTPUT_FRAMES, 60}},
+      {{SB_P_CANISTER_PRESSURE, 0.2e6},
+       {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
+       {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_FREE_RETURN}}};
+  static const char *const missing[] = {
+      "cycle.leakage_per_cycle_m3", "cycle.leakage_net_all_actuations_m3",
+      "cycle.leakage_carried_all_actuations_m3", "cycle.dose_mass_kg"};
+  for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
+    SbModel model;
+    compile(&model, cases[i], 3);
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    check_reasons(s);
+    g_assert_cmpint(s->outcome, ==, SB_OUTCOME_STUCK);
+    for (size_t k = 0; k < G_N_ELEMENTS(missing); k++) {
+      g_assert_true(isnan(value_at(s, missing[k])));
+      g_assert_nonnull(strstr(reason_at(s, missing[k]), "stuck at"));
+    }
+    sb_run_destroy(run);
+  }
+}
+
+// Nothing is known of the films' leakage through a seal without contact: least of all that it is 0.
+static void test_open_leakage(void) {
+  for (int motion = 0; motion < 2; motion++) {
+    const Setting changes[] = {
+        {SB_P_VALVE_KIND, SB_VALVE_GASKET}, {SB_P_GASKET_CRIMP, 0}, {SB_P_MODELS_MOTION, motion}};
+    SbModel model;
+    compile(&model, changes, G_N_ELEMENTS(changes));
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    check_reasons(s);
+    g_assert_cmpint(s->seal[SB_OUTER].leak_state, ==, SB_LEAK_OPEN);
+    g_assert_true(isnan(s->leakage_per_cycle) && isnan(s->leakage_net) &&
+                  isnan(s->leakage_carried));
+    g_assert_nonnull(strstr(reason_at(s, "cycle.leakage_per_cycle_m3"), "the outer seal is open"));
+    sb_run_destroy(run);
+  }
+}
+
+// A contact that the fluid opens in any state of the cycle does not seal: in either direction, and
+// of either seal.
+static void test_opened(void) {
+  SbModel model;
+  compile(&model, NULL, 0);
+  for (int i = 0; i < 4; i++) {
+    const int seal = i % 2, motion = i / 2;
+    SbRun *run = run_of(&model, SB_OK, NULL);
+    const SbSummary *s = sb_run_summary(run);
+    g_assert_cmpint(s->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_YES);
+    run->cycle.state[seal][SB_CHAMBER_CLOSED][motion].opened = true;
+    memset(&run->summary.reasons, 0, sizeof run->summary.reasons);
+    sb_run_summarise_seals(run);
+    sb_run_leave_out(run);
+    sb_verdict_fill(&run->summary, &model);
+    g_assert_cmpint(s->seal[seal].leak_state, ==, SB_LEAK_OPEN);
+    g_assert_cmpint(s->verdict[SB_VERDICT_SEALS].ok, ==, SB_ANSWER_NO);
+    g_assert_nonnull(strstr(s->verdict[SB_VERDICT_SEALS].reason, "the fluid opens the contact"));
+    g_assert_cmpint(isnan(s->leakage_per_cycle), ==, seal == SB_OUTER);
+    bool told = false;
+    for (size_t k = 0; k < s->warnings.count; k++) {
+      told = told || strcmp(s->warnings.item[k].code, "seal-open") == 0;
+    }
+    g_assert_true(told);
+    sb_run_destroy(run);
+  }
+}
+
 // Shares of people by the normal distribution function; of a plate that nobody presses, none.
 static void test_people(void) {
   const Setting changes[] = {{SB_P_PEOPLE_MEN_STRENGTH, 30},
@@ -562,6 +634,9 @@ int main(int argc, char **argv) {
   g_test_add_func("/figures/dragged-contact", test_dragged_contact);
   g_test_add_func("/figures/shear-strength", test_shear_strength);
   g_test_add_func("/figures/one-way", test_one_way);
+  g_test_add_func("/figures/stuck-without-cycle", test_stuck_without_cycle);
+  g_test_add_func("/figures/open-leakage", test_open_leakage);
+  g_test_add_func("/figures/opened", test_opened);
   g_test_add_func("/figures/people", test_people);
   g_test_add_func("/figures/failure", test_failure);
   g_test_add_func("/figures/cancelled", test_cancelled);

@@ -1,5 +1,6 @@
 // The valve's motion with inertia: it agrees with the quasi-static cycle where it should, every
 // drive ends with its energy in balance, and the keys of friction do what they say.
+#include "engine/valve/figures/figures.h"
 #include "tests/engine/motion_run.h"
 #include "tests/engine/near.h"
 
@@ -492,6 +493,54 @@ static void test_stiff(void) {
   }
 }
 
+// ---- several cycles ----
+
+// The return margin has the static friction after the rest of one press, however many follow.
+static void test_dwell_of_presses(void) {
+  double margin[2];
+  for (int cycles = 1; cycles <= 2; cycles++) {
+    const Setting settings[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                                {SB_P_DRIVE_HOLD_TIME, 10},
+                                {SB_P_FRICTION_DWELL_GAIN, 0.2},
+                                {SB_P_DRIVE_CYCLES, cycles}};
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, settings, G_N_ELEMENTS(settings));
+    const SbSummary *summary = sb_run_summary(run);
+    margin[cycles - 1] = summary->force_return_margin;
+    g_assert_cmpint(summary->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_NO);
+    sb_run_destroy(run);
+  }
+  g_assert_cmpfloat(margin[0], <, 0);
+  assert_near(margin[1], margin[0], 1e-6 * fabs(margin[0]));
+}
+
+// Energies and leakage are those of one cycle, however many the motion has, and do not depend on
+// the number of frames within their errors.
+static void test_figures_per_cycle(void) {
+  const int net = sb_figure_find("cycle.leakage_net_all_actuations_m3");
+  const int loop = sb_figure_find("cycle.energy_loss_J");
+  SbSummary one = {0};
+  for (int i = 0; i < 4; i++) {
+    const int cycles = i == 0 ? 1 : i;
+    const Setting settings[] = {{SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                                {SB_P_DRIVE_CYCLES, cycles},
+                                {SB_P_OUTPUT_FRAMES, i == 3 ? 600 : 60}};
+    SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, settings, G_N_ELEMENTS(settings));
+    const SbSummary *summary = sb_run_summary(run);
+    one = i == 0 ? *summary : one;
+    g_test_message("%d cycles: %.9g J, %.9g m3", cycles, summary->energy.loop,
+                   summary->leakage_per_cycle);
+    assert_near(summary->energy.loop, one.energy.loop,
+                3 * one.error[loop] + 1e-8 * one.energy.loop);
+    assert_near(summary->energy.friction, one.energy.friction, 1e-6 * one.energy.friction);
+    assert_near(summary->energy.external_max, one.energy.external_max,
+                1e-6 * one.energy.external_max);
+    assert_near(summary->leakage_net, one.leakage_net, 3 * one.error[net]);
+    g_assert_cmpfloat(one.error[net], <, 1e-5 * one.leakage_net);
+    assert_near(summary->dose_mass, one.dose_mass, 1e-9 * one.dose_mass);
+    sb_run_destroy(run);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-dynamic/straight-bands", test_straight_bands);
@@ -510,5 +559,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/finger-leaves", test_finger_leaves);
   g_test_add_func("/run-dynamic/refused", test_refused);
   g_test_add_func("/run-dynamic/stiff", test_stiff);
+  g_test_add_func("/run-dynamic/dwell-of-presses", test_dwell_of_presses);
+  g_test_add_func("/run-dynamic/figures-per-cycle", test_figures_per_cycle);
   return g_test_run();
 }

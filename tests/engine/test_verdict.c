@@ -89,7 +89,25 @@ static void test_contradictions(void) {
   g_assert_false(sb_summary_contradiction(text, sizeof text, good, &model));
   g_assert_cmpstr(text, ==, "");
   SbSummary *bad = g_new(SbSummary, 1);
-  enum { RETURNS, STUCK, NEVER, VERDICT, VALUE, LIMIT, SHARE, PEAK, PRESS, TWICE, KINDS };
+  enum {
+    RETURNS,
+    STUCK,
+    NEVER,
+    VERDICT,
+    VALUE,
+    LIMIT,
+    SHARE,
+    PEAK,
+    PRESS,
+    DWELL,
+    CYCLES,
+    UNKNOWN,
+    OPEN,
+    OPENED,
+    BACK,
+    TWICE,
+    KINDS
+  };
   for (int kind = 0; kind < KINDS; kind++) {
     *bad = *good;
     switch (kind) {
@@ -122,6 +140,28 @@ static void test_contradictions(void) {
       break;
     case PRESS:
       bad->force_press = 0.99 * bad->force_breakaway;
+      break;
+    case DWELL: // presses that forgot the rest at the stop
+      bad->dwell = 0;
+      break;
+    case CYCLES: // a sum of three cycles
+      bad->energy.loop *= 3;
+      break;
+    case UNKNOWN:
+      bad->outcome = SB_OUTCOME_UNKNOWN;
+      bad->returns = false;
+      bad->returned = NAN;
+      break;
+    case OPEN:
+      bad->seal[SB_OUTER].leak_state = SB_LEAK_OPEN;
+      break;
+    case OPENED:
+      bad->seal[SB_INNER].opened = true;
+      bad->seal[SB_INNER].leak_state = SB_LEAK_CLOSED;
+      break;
+    case BACK:
+      bad->contact[SB_OUTER].back.friction = NAN;
+      bad->seal[SB_OUTER].leak_state = SB_LEAK_PERCOLATING;
       break;
     default:
       bad->contact[SB_OUTER].in_stroke.load *= 1.001;

@@ -190,7 +190,7 @@ typedef struct {
   long failure;                // number from 1 of the actuation without return; 0: none
 } SbLife;
 
-// Energies of the cycle, each integrated separately.
+// Energies of the cycle, each integrated separately; of a motion with several cycles their mean.
 typedef struct {
   // Work of drive and canister pressure on the stem, and the largest magnitude of this work during
   // the cycle [J]; both NaN if only a spring moves the stem.
@@ -307,7 +307,9 @@ typedef struct {
 #include "engine/valve/figures/figures.def"
   SbStatus status; // what sb_run_execute() returned
   SbOutcome outcome;
-  bool returns;                      // the outcome is SB_OUTCOME_RETURNED
+  bool returns; // the outcome is SB_OUTCOME_RETURNED
+  bool closes;  // the motion ends where it began: a full cycle
+  double dwell; // rest before the return whose static friction the return margin has [s]
   SbStageMark stage[SB_STAGE_COUNT]; // by SbStage
   SbSealState seal[SB_SEAL_COUNT];   // by SB_OUTER, SB_INNER: state in the middle of B-C
   SbContacts contact[SB_SEAL_COUNT]; // by SB_OUTER, SB_INNER

@@ -4,6 +4,7 @@
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/model.h"
 #include "engine/valve/model/motion_kind.h"
+#include "engine/valve/run/valve_type.h"
 
 #include <math.h>
 
@@ -35,6 +36,8 @@ static bool outcome_contradicts(const Check *check) {
   const SbSummary *s = check->summary;
   const char *name = sb_outcome_name(s->outcome);
   const bool stuck = s->outcome == SB_OUTCOME_STUCK, never = s->outcome == SB_OUTCOME_NEVER_MOVED;
+  const bool strokes = s->outcome == SB_OUTCOME_RETURNED || s->outcome == SB_OUTCOME_HELD;
+  const SbStage emptied = sb_valve_type(check->model)->fills_at_rest ? SB_STAGE_D : SB_STAGE_F;
   const char *wrong = NULL;
   if (s->returns != (s->outcome == SB_OUTCOME_RETURNED) ||
       (isfinite(s->returned) && (s->returned > 0) != s->returns)) {
@@ -45,10 +48,16 @@ static bool outcome_contradicts(const Check *check) {
     wrong = "cycle.force_return_margin_N";
   } else if (never && (isfinite(s->force_return_min) || isfinite(s->force_return_margin))) {
     wrong = "cycle.force_return_min_N";
-  } else if ((never || stuck) && isfinite(s->leakage_carried)) {
+  } else if (!strokes && isfinite(s->leakage_carried)) {
     wrong = "cycle.leakage_carried_all_actuations_m3";
-  } else if (never && (s->dose_mass > 0 || isfinite(s->leakage_per_cycle))) {
+  } else if (!strokes && (isfinite(s->leakage_per_cycle) || isfinite(s->leakage_net))) {
+    wrong = "cycle.leakage_per_cycle_m3";
+  } else if ((stuck || never) && isfinite(s->dose_mass) && !s->stage[emptied].reached) {
     wrong = "cycle.dose_mass_kg";
+  } else if (isfinite(s->force_return_margin) && s->stage[SB_STAGE_D].reached &&
+             s->stage[SB_STAGE_E].reached &&
+             s->stage[SB_STAGE_E].time > s->stage[SB_STAGE_D].time + 1e-6 && !(s->dwell > 0)) {
+    wrong = "cycle.force_return_margin_N"; // it has the friction of no dwell
   }
   if (wrong != NULL) {
     sb_text(check->text, check->size, "%s = %g contradicts the outcome %s", wrong,
@@ -57,7 +66,42 @@ static bool outcome_contradicts(const Check *check) {
   return wrong != NULL;
 }
 
-// Forces against the peak.
+// A seal that the fluid opens against its leak, and an open outer seal against the leakages.
+static bool seal_contradicts(const Check *check) {
+  const SbSummary *s = check->summary;
+  const bool open = s->seal[SB_OUTER].leak_state == SB_LEAK_OPEN;
+  if (open && (isfinite(s->leakage_per_cycle) || isfinite(s->leakage_carried))) {
+    sb_text(check->text, check->size, "a leakage of films is known, but the outer seal is open");
+    return true;
+  }
+  for (int seal = 0; seal < SB_SEAL_COUNT && s->status == SB_OK; seal++) {
+    const SbLeakState state = s->seal[seal].leak_state;
+    const SbContact *back = &s->contact[seal].back;
+    const bool opened =
+        s->seal[seal].opened || (back->known && back->load > 0 && isnan(back->friction));
+    if (opened && (state == SB_LEAK_CLOSED || state == SB_LEAK_PERCOLATING)) {
+      sb_text(check->text, check->size, "the fluid opens the %s seal, but its leak is %s",
+              sb_seal_name(seal), sb_leak_state_name(state));
+      return true;
+    }
+    if (state == SB_LEAK_OPEN && s->verdict[SB_VERDICT_SEALS].ok != SB_ANSWER_NO) {
+      sb_text(check->text, check->size, "the %s seal is open, but the verdict is not no",
+              sb_seal_name(seal));
+      return true;
+    }
+  }
+  return false;
+}
+
+// Largest area of the loop of one press with the summary's peak force [J]: a machine's platen or a
+// finger moves in once, to the stop and what it and the machine yield.
+static double largest_loop(const Check *check) {
+  const SbModel *model = check->model;
+  const double peak = check->summary->force_peak, hold = fmax(model->reversal_force, 1.1 * peak);
+  return 1.01 * peak * (model->stroke + hold / model->stiffness + 2 * hold / model->stop_stiffness);
+}
+
+// Forces against the peak, and the energy of one cycle.
 static bool motion_contradicts(const Check *check) {
   const SbSummary *s = check->summary;
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
@@ -68,6 +112,14 @@ static bool motion_contradicts(const Check *check) {
               name, mark->force, s->force_peak);
       return true;
     }
+  }
+  const bool presses =
+      check->model->drive == SB_MODEL_DRIVE_MACHINE || check->model->drive == SB_MODEL_DRIVE_HAND;
+  if (presses && sb_motion_kind(check->model)->valve &&
+      exceeds(s->energy.loop, largest_loop(check))) {
+    sb_text(check->text, check->size, "the loop's area, %.9g J, is that of more than one cycle",
+            s->energy.loop);
+    return true;
   }
   if (exceeds(s->force_press, s->force_peak) || exceeds(s->force_breakaway, s->force_press)) {
     sb_text(check->text, check->size, "break-away %.9g N, press force %.9g N and peak %.9g N",
@@ -168,6 +220,6 @@ bool sb_summary_contradiction(char *text, size_t size, const SbSummary *summary,
                               const SbModel *model) {
   const Check check = {text, size, summary, model};
   text[0] = '\0';
-  return outcome_contradicts(&check) || motion_contradicts(&check) ||
+  return outcome_contradicts(&check) || seal_contradicts(&check) || motion_contradicts(&check) ||
          fraction_contradicts(&check) || twice_contradicts(&check) || verdict_contradicts(&check);
 }

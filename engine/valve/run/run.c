@@ -217,7 +217,7 @@ static void clear_motion(SbRun *run, const char *why) {
   summary->duration = summary->error_force = summary->error_energy = NAN;
   summary->energy = (SbEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   summary->outcome = SB_OUTCOME_UNKNOWN;
-  summary->returns = false;
+  summary->returns = summary->closes = false;
   summary->returned = NAN;
   sb_reason(summary, "cycle.*", "%s", why);
   sb_reason(summary, "solver.error_estimate.force", "%s", why);
@@ -309,12 +309,9 @@ static void warn_of_outcome(SbSummary *summary) {
 // Figures of all actuations, and what users can do, from the figures of the motion.
 static void conclude(SbRun *run, bool moved) {
   SbSummary *summary = &run->summary;
-  const bool again =
-      summary->outcome != SB_OUTCOME_NEVER_MOVED && summary->outcome != SB_OUTCOME_STUCK;
-  if (again) {
-    summary->leakage_carried = run->model->actuations * summary->seal[SB_OUTER].leakage_per_stroke;
-  }
+  summary->leakage_carried = run->model->actuations * summary->seal[SB_OUTER].leakage_per_stroke;
   summary->leakage_net = run->model->actuations * summary->leakage_per_cycle;
+  sb_run_leave_out(run);
   if (summary->stage[SB_STAGE_B].reached) {
     summary->force_breakaway = summary->stage[SB_STAGE_B].force;
   }

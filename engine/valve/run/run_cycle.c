@@ -183,7 +183,7 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   SbStatus ended = take_figures(summary, run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : ended;
-  sb_run_leakage(summary, run->model, &run->bore, summary->returns);
+  sb_run_leakage(summary, run->model, &run->bore);
   summary->steps = cycle->count;
   SbStatus speeds = sb_run_close_speeds(run, status == SB_OK ? report : NULL);
   status = status != SB_OK ? status : speeds;

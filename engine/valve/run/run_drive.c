@@ -65,6 +65,7 @@ static void set_sinusoid(SbDynamicsModel *out, SbDriveTimes *times, const SbRun 
                          .amplitude = model->amplitude,
                          .frequency = model->frequency};
   *times = (SbDriveTimes){.duration = model->cycles / model->frequency,
+                          .period = 1 / model->frequency,
                           .turn = 0.25 / model->frequency,
                           .ends_run = true};
   out->drive_bonded = true;
@@ -116,6 +117,7 @@ void sb_valve_set_drive(SbDynamicsModel *out, SbDriveTimes *times, const SbRun *
   SbDrive *drive = &out->drive;
   set[model->drive](out, times, run);
   drive->cycles = model->cycles;
+  times->cycles = times->period > 0 ? model->cycles : 1;
   if (drive->kind != SB_DRIVE_NONE && drive->quantity == SB_DRIVE_OF_POSITION) {
     out->drive_stiffness = model->stiffness;
     out->drive_damping = model->damping_ratio * 2 * sqrt(model->stiffness * out->mass);

@@ -21,8 +21,20 @@ static const double least_tolerance = 1e-12;
 // steps.
 static const double sure_tolerance = 1e-8;
 
+// Relative error of the volumes that the films carry by the times between two instants at which the
+// stem passes a place (measured: 3e-7 between 60 and 1500 frames).
+static const double leak_instants = 2e-7;
+
 static double relative(double a, double b, double scale) {
   return scale > 0 ? fabs(a - b) / scale : 0;
+}
+
+// Returns the time between the end of an in-stroke and the first reverse slip [s]; without such a
+// slip until the drive turns in that actuation.
+static double dwell_of(const SbRecorder *r) {
+  const SbDriveTimes *times = &r->valve.times;
+  const double before = times->period > 0 ? floor(r->rested / times->period) * times->period : 0;
+  return r->mark[SB_STAGE_E].reached ? r->dwell : fmax(before + times->turn - r->rested, 0);
 }
 
 // Sets a motion's outcome and the figures that follow from it; `out` has its stages.
@@ -32,15 +44,13 @@ static SbStatus conclude_motion(SbSummary *out, const SbRecorder *r, SbReport *r
   const double start = r->model.start_position;
   SbDynamicsSample last;
   sb_dynamics_sample(&r->motion, &last, NULL);
-  const double leaves =
-      r->mark[SB_STAGE_E].reached ? r->mark[SB_STAGE_E].time : fmax(r->valve.times.turn, r->rested);
   SbRunEnd end = {.start = start,
                   .top = fmax(r->top, start),
                   .position = last.position,
                   .speed = last.speed,
                   .force = last.drive_force,
                   .bonded = r->model.drive_bonded,
-                  .dwell = start > 0 ? model->rest : fmax(leaves - r->rested, 0),
+                  .dwell = start > 0 ? model->rest : dwell_of(r),
                   .press = r->press,
                   // A fast return's viscous friction takes more than that at the films' speed.
                   .sliding_least = r->return_least};
@@ -60,7 +70,7 @@ static SbStatus conclude_motion(SbSummary *out, const SbRecorder *r, SbReport *r
 static SbStatus compute_figures(SbSummary *out, const SbRecorder *r, SbReport *report) {
   memset(out->stage, 0, sizeof out->stage);
   sb_figures_clear(out);
-  sb_run_fill_motion(out, &r->energy, &r->motion.counters);
+  sb_run_fill_motion(out, &r->energy, &r->motion.counters, r->valve.times.cycles);
   out->force_peak = r->force_peak;
   out->duration = 0; // of the frames
   for (int i = 0; i < SB_STAGE_COUNT; i++) {
@@ -203,16 +213,18 @@ static SbStatus estimate_error(SbRecorder others[2], const SbRecorder *fine, dou
 }
 
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
-                        const SbDynamicsCounters *counters) {
+                        const SbDynamicsCounters *counters, int cycles) {
+  const double external = (energy->drive + energy->pressure) / cycles;
   summary->energy = (SbEnergy){
-      .external = energy->drive + energy->pressure,
-      .external_max = energy->largest,
-      .friction = energy->friction + energy->viscous,
-      .stored = energy->stored,
-      .seal = energy->seal + energy->machine,
-      .kinetic = energy->kinetic,
-      .stop = energy->stop,
-      .loop = energy->drive - energy->machine,
+      .external = external,
+      // The work of the cycles before adds to that of the last one.
+      .external_max = energy->largest - (cycles - 1) * fabs(external),
+      .friction = (energy->friction + energy->viscous) / cycles,
+      .stored = energy->stored / cycles,
+      .seal = (energy->seal + energy->machine) / cycles,
+      .kinetic = energy->kinetic / cycles,
+      .stop = energy->stop / cycles,
+      .loop = (energy->drive - energy->machine) / cycles,
       .closure = sb_cycle_closure(energy->closure),
   };
   summary->steps = (size_t)(counters->segments + counters->steps);
@@ -278,7 +290,7 @@ static double closure_of(const SbRecorder *r) {
 // returns the stem, no external work is the scale of the other terms: it is not a figure.
 static void fill_energy(SbSummary *summary, const SbRecorder *r,
                         const SbDynamicsCounters *counters) {
-  sb_run_fill_motion(summary, &r->energy, counters);
+  sb_run_fill_motion(summary, &r->energy, counters, r->valve.times.cycles);
   if (!does_work(r)) {
     summary->energy = (SbEnergy){0};
   } else if (!(r->energy.largest > 0)) {
@@ -400,8 +412,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status == SB_OK) {
     status = conclude_motion(summary, &r, report);
   }
-  const bool back = fabs(last->displacement - run->frames[0].displacement) < 1e-6 * model->stroke;
-  sb_run_leakage(summary, model, &run->bore, back);
+  sb_run_leakage(summary, model, &run->bore);
   fill_energy(summary, &r, &counters);
   summary->counters.newton_iterations += (size_t)counters.newton_iterations;
   if (counters.grouped > 0) {
@@ -412,6 +423,7 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
         (double)counters.grouped);
   }
   sb_run_leak_error(run);
+  run->leak_error += leak_instants * model->bore_circumference * (run->bore.out + run->bore.back);
   if (status == SB_OK && !run->follows && r.count > 1 && !r.valve.times.ends_run) {
     // Rest of the stem is detected at a frame.
     run->motion_error[sb_figure_find("cycle.duration_s")] =

@@ -43,17 +43,22 @@ static int pressed_by(const SbModel *model) {
   return sb_input(sb_valve_type(model)->pressed_by);
 }
 
-// Whether a seal presses the bore in every state in which the cycle needs it to: no before not
+// Whether a seal presses the bore in every state of the cycle that the plan solves: no before not
 // known, which is a state whose fit did not converge, before yes.
 static SbAnswer presses(const SbRun *run, int seal) {
+  const bool whole = run->plan.seal[seal] == SB_DEPTH_WHOLE;
+  const int motions = !whole ? 1 : run->plan.ring ? SB_RUN_MOTIONS : SB_RUN_REST;
   SbAnswer answer = SB_ANSWER_YES;
-  for (int chamber = 0; chamber < SB_CYCLE_CHAMBERS; chamber++) {
-    bool needed = seal == SB_OUTER || chamber != SB_CHAMBER_OPEN;
-    int alike = sb_run_first_equal_chamber(run, seal, chamber);
-    const SbSealState *state = &run->cycle.state[seal][alike][SB_CYCLE_IN];
-    if (needed && isnan(state->load)) {
+  for (int i = 0; i < SB_CYCLE_CHAMBERS * motions; i++) {
+    const int chamber = i / motions;
+    const int solved = whole ? chamber : sb_run_first_equal_chamber(run, seal, chamber);
+    const SbSealState *state = &run->cycle.state[seal][solved][i % motions];
+    if (seal == SB_INNER && chamber == (int)SB_CHAMBER_OPEN) {
+      continue; // it has left the land
+    }
+    if (isnan(state->load)) {
       answer = SB_ANSWER_UNKNOWN;
-    } else if (needed && (!state->touches || state->load_net <= 0 || state->opened)) {
+    } else if (!state->touches || state->load_net <= 0 || state->opened) {
       return SB_ANSWER_NO;
     }
   }
@@ -63,10 +68,11 @@ static SbAnswer presses(const SbRun *run, int seal) {
 // Reports a seal that does not press the bore.
 static void report_open(SbRun *run, int seal, bool touches) {
   sb_seal_reason(&run->summary, seal, "leak*", "%s",
-                 touches ? "the rubber presses the bore no more than the fluid does, or leaves "
-                           "it in a state of the cycle: the path is open"
-                         : "the seal has no contact with the bore under its pressures: the path is "
-                           "open");
+                 touches
+                     ? "in a state of the cycle the fluid opens the contact or carries it alone, "
+                       "or the rubber leaves the bore: the path is open"
+                     : "the seal has no contact with the bore under its pressures: the path is "
+                       "open");
   sb_seal_reason(&run->summary, seal, "closing*", "the rubber does not press the bore");
   sb_warn_serious(&run->summary.warnings, "seal-open", pressed_by(run->model),
                   "the %s seal is open: it does not press the bore under its pressures",
@@ -164,7 +170,7 @@ static void static_leak(SbRun *run, int seal, SbSealState *out) {
         warnings, "static-leak", pressed_by(model),
         "the %s seal leaks at rest: %.3g MPa of contact pressure, open channels close at %.3g MPa",
         sb_seal_name(seal), problem.contact_pressure * 1e-6, leak.closing_pressure * 1e-6);
-  } else if (problem.contact_pressure < 1.5 * leak.closing_pressure) {
+  } else if (!open && problem.contact_pressure < 1.5 * leak.closing_pressure) {
     sb_warn(
         warnings, "static-leak-near", pressed_by(model),
         "the %s seal is near its leak at rest: %.3g MPa of contact pressure, channels open below "
@@ -202,15 +208,19 @@ double sb_run_filled_share(const SbSummary *summary, const SbModel *model) {
   return both ? fmin(1, (closes->time - opens->time) / model->filling_time) : NAN;
 }
 
-// Returns the time [s] for which the vent is open: on the return, or in both directions; INFINITY
-// if it is open at the end. Uses every `step`-th frame.
+// Returns the time [s] for which the vent is open in the first actuation: on the return, or in both
+// directions; INFINITY if it is open at the end. Uses every `step`-th frame.
 static double vent_time(const SbRun *run, double low, double high, size_t step) {
   const SbModel *model = run->model;
   const bool both_ways = !model->vent_on_return;
   bool open = false;
   double time = 0;
-  for (size_t i = 0, next; i + 1 < run->count; i = next) {
-    next = i + step < run->count ? i + step : run->count - 1;
+  size_t count = run->count;
+  while (run->period > 0 && count > 1 && run->frames[count - 1].time > run->period) {
+    count--;
+  }
+  for (size_t i = 0, next; i + 1 < count; i = next) {
+    next = i + step < count ? i + step : count - 1;
     const SbFrame *from = &run->frames[i], *to = &run->frames[next];
     const double a = from->displacement, b = to->displacement;
     const double least = fmin(a, b), most = fmax(a, b);
@@ -252,11 +262,12 @@ static double permeation(const SbModel *model) {
 
 double sb_run_dose(const SbRun *run, double metered) {
   const double filled = sb_run_filled_share(&run->summary, run->model);
-  if (!(run->model->canister_pressure > 0)) {
-    return 0; // nothing drives out what is not above ambient
+  if (!sb_run_delivers(run)) {
+    return NAN;
   }
-  return sb_run_delivers(run) ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run, 1), 0)
-                              : NAN;
+  return run->model->canister_pressure > 0
+             ? fmax(metered * (isnan(filled) ? 1 : filled) - kept(run, 1), 0)
+             : 0; // nothing drives out what is not above ambient
 }
 
 void sb_run_summarise_seals(SbRun *run) {
@@ -309,28 +320,14 @@ void sb_run_summarise_seals(SbRun *run) {
   }
 }
 
-void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back) {
+void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore) {
   const double circumference = model->bore_circumference;
   // Equal films in both directions leave rounding only.
   const double net = bore->out - bore->back;
-  summary->leakage_per_cycle = fabs(net) <= 1e-12 * bore->out ? 0 : circumference * net;
-  if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
-    summary->leakage_per_cycle = NAN;
-    return; // sb_run_set_reasons() has the reason
-  }
-  if (!back) {
-    summary->leakage_per_cycle = NAN;
-    char carried[32] = "";
-    if (!isnan(bore->out)) {
-      snprintf(carried, sizeof carried, " (%.3g nl)", 1e12 * circumference * bore->out);
-    }
-    sb_reason(summary, "cycle.leakage_per_cycle_m3",
-              "the stem does not return: what the outer seal transported in one direction%s is "
-              "not a loss of a cycle",
-              carried);
-    sb_reason(summary, "cycle.leakage_net_all_actuations_m3",
-              "the stem does not return: there is no second actuation");
-  } else if (fabs(net) < summary->error_film * bore->out) {
+  summary->leakage_per_cycle = !summary->closes                 ? NAN
+                               : fabs(net) <= 1e-12 * bore->out ? 0
+                                                                : circumference * net;
+  if (summary->closes && fabs(net) < summary->error_film * bore->out) {
     sb_warn(&summary->warnings, "leakage-uncertain", sb_input(SB_P_OUTPUT_TOLERANCE),
             "the leakage of a cycle, %.2g nl, is less than the error of the transport in each "
             "direction, %.2g nl",
@@ -352,31 +349,6 @@ static void give(SbSummary *summary, int seal, const Reason *reasons, size_t cou
     } else if (reason->when) {
       sb_seal_reason(summary, seal, reason->name, "%s", reason->why);
     }
-  }
-}
-
-// Why the figures of parts of the cycle are missing that did not happen.
-static void give_reasons_of_outcome(SbRun *run) {
-  SbSummary *summary = &run->summary;
-  const bool never = summary->outcome == SB_OUTCOME_NEVER_MOVED;
-  const char *missing = NULL; // the first stage that a dose needs
-  for (int stage = SB_STAGE_C; stage <= SB_STAGE_F && missing == NULL; stage++) {
-    const SbStage last = sb_valve_type(run->model)->fills_at_rest ? SB_STAGE_D : SB_STAGE_F;
-    const bool needed = stage == SB_STAGE_C || stage == (int)last;
-    missing = needed && !summary->stage[stage].reached ? sb_stage_name((SbStage)stage) : NULL;
-  }
-  if (never) {
-    sb_reason(summary, "cycle.leakage_*", "the stem never moved");
-    sb_reason(summary, "cycle.dose_mass_kg", "the stem never moved");
-  } else if (summary->outcome == SB_OUTCOME_STUCK) {
-    const double at = 1e3 * summary->stuck_at;
-    sb_reason(summary, "cycle.leakage_carried_all_actuations_m3",
-              "the stem is stuck at %.4g mm: there is no second actuation", at);
-    sb_reason(summary, "cycle.dose_mass_kg", "the stem is stuck at %.4g mm before the chamber %s",
-              at, missing != NULL ? "is filled and empties" : "has emptied");
-  }
-  if (summary->outcome != SB_OUTCOME_UNKNOWN && missing != NULL) {
-    sb_reason(summary, "cycle.dose_mass_kg", "the cycle does not reach stage %s: no dose", missing);
   }
 }
 
@@ -457,7 +429,6 @@ void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report) {
   const SbLife *life = &summary->life;
   const bool well = status == SB_OK;
   const bool closed = !sb_contact_law(model)->shares && !sb_film_kind(model->film)->coupled;
-  give_reasons_of_outcome(run);
   if (life->failure > 0) {
     sb_reason(summary, "life.*", "the life ends at actuation %ld: its stem does not return",
               life->failure);

@@ -13,6 +13,7 @@
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
+#include <stdio.h>
 
 // A stem slower than this is at rest [m/s].
 static const double rest_speed = 1e-6;
@@ -66,6 +67,9 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
                                 SbReport *report) {
   summary->outcome = outcome_of(summary, run->model, end);
   const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
+  summary->closes =
+      (summary->outcome == SB_OUTCOME_RETURNED || summary->outcome == SB_OUTCOME_HELD) &&
+      fabs(end->position - end->start) < 1e-6 * run->model->stroke;
   summary->returns = summary->outcome == SB_OUTCOME_RETURNED;
   summary->returned = summary->outcome == SB_OUTCOME_UNKNOWN ? NAN : summary->returns;
   summary->stuck_at = stuck ? end->position : NAN;
@@ -76,6 +80,7 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
     give_reasons(summary, end);
     return SB_OK;
   }
+  summary->dwell = end->dwell;
   SbStatus status = sb_cycle_rest(&run->cycle, end->dwell, report);
   if (status != SB_OK) {
     return status;
@@ -106,4 +111,75 @@ bool sb_run_delivers(const SbRun *run) {
   const bool stuck = summary->outcome == SB_OUTCOME_STUCK;
   return first && summary->stage[SB_STAGE_F].reached &&
          (!stuck || model->pressure_map == SB_MAP_PORTS);
+}
+
+// Reasons of the leakages that the outcome leaves out.
+static void give_reasons_of_leakage(SbRun *run) {
+  SbSummary *summary = &run->summary;
+  const double at = 1e3 * summary->stuck_at;
+  char carried[32] = "";
+  if (!isnan(run->bore.out)) {
+    snprintf(carried, sizeof carried, " (%.3g nl)",
+             1e12 * run->model->bore_circumference * run->bore.out);
+  }
+  if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
+    sb_reason(summary, "cycle.leakage_*", "the stem never moved");
+  } else if (summary->outcome == SB_OUTCOME_STUCK) {
+    sb_reason(summary, "cycle.leakage_per_cycle_m3",
+              "the stem is stuck at %.4g mm: what the outer seal transported in one direction%s is "
+              "not a loss of a cycle",
+              at, carried);
+    sb_reason(summary, "cycle.leakage_*",
+              "the stem is stuck at %.4g mm: there is no second actuation", at);
+  } else if (!summary->closes) {
+    sb_reason(summary, "cycle.leakage_*",
+              "the motion does not end where it began: what the outer seal transported%s is not a "
+              "loss of a cycle",
+              carried);
+  }
+}
+
+// Reasons of a dose that the outcome leaves out.
+static void give_reasons_of_dose(SbRun *run) {
+  SbSummary *summary = &run->summary;
+  const char *missing = NULL; // the first stage that a dose needs
+  for (int stage = SB_STAGE_C; stage <= SB_STAGE_F && missing == NULL; stage++) {
+    const SbStage last = sb_valve_type(run->model)->fills_at_rest ? SB_STAGE_D : SB_STAGE_F;
+    const bool needed = stage == SB_STAGE_C || stage == (int)last;
+    missing = needed && !summary->stage[stage].reached ? sb_stage_name((SbStage)stage) : NULL;
+  }
+  if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
+    sb_reason(summary, "cycle.dose_mass_kg", "the stem never moved");
+  } else if (summary->outcome == SB_OUTCOME_STUCK) {
+    sb_reason(summary, "cycle.dose_mass_kg", "the stem is stuck at %.4g mm before the chamber %s",
+              1e3 * summary->stuck_at, missing != NULL ? "is filled and empties" : "has emptied");
+  } else if (summary->outcome != SB_OUTCOME_UNKNOWN && missing != NULL) {
+    sb_reason(summary, "cycle.dose_mass_kg", "the cycle does not reach stage %s: no dose", missing);
+  }
+}
+
+void sb_run_leave_out(SbRun *run) {
+  SbSummary *summary = &run->summary;
+  const bool open = summary->seal[SB_OUTER].leak_state == SB_LEAK_OPEN;
+  const bool strokes =
+      summary->outcome == SB_OUTCOME_RETURNED || summary->outcome == SB_OUTCOME_HELD;
+  if (open || !summary->closes) {
+    summary->leakage_per_cycle = summary->leakage_net = NAN;
+  }
+  if (open || !strokes) {
+    summary->leakage_carried = NAN;
+  }
+  summary->dose_mass = sb_run_delivers(run) ? summary->dose_mass : NAN;
+  give_reasons_of_leakage(run);
+  give_reasons_of_dose(run);
+  if (open) { // its films are not what it loses
+    const int leak = sb_figure_find("seals.outer.leakage_static_m3_per_s");
+    const char *why = sb_figure_reason(summary, leak);
+    sb_reason(summary, "cycle.leakage_*", "the outer seal is open: %s", why);
+    sb_reason(summary, "life.leakage_*", "the outer seal is open: %s", why);
+    summary->life.leakage = summary->life.carried = NAN;
+    for (long i = 0; i < summary->life.done; i++) {
+      run->life[i].leakage = run->life[i].carried = NAN;
+    }
+  }
 }

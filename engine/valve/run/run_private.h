@@ -165,8 +165,9 @@ struct SbRun {
   double motion_error[SB_FIGURE_COUNT], speed_error[2], leak_error, kept_error;
   double compared_error[SB_SEAL_COUNT]; // relative error of the film solved for comparison
   SbSealState shown[SB_SEAL_COUNT][2];  // states for the seals' figures, by way
-  SbBore bore;                          // layers of the last motion under the outer seal
-  SbFilm film;                          // work memory for films that belong to no state
+  SbBore bore;   // of the last motion, outer seal; volumes at its end: mean of the actuations
+  double period; // time of one actuation of a motion with several [s]; 0: the motion is one
+  SbFilm film;   // work memory for films that belong to no state
   // Largest error of a state's kinetic, static friction [N].
   double friction_error[SB_SEAL_COUNT], static_error[SB_SEAL_COUNT];
   SbRunProfile profile[SB_RUN_PROFILE_SLOTS]; // by sb_run_profile_slot()
@@ -200,7 +201,7 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 // the plan allows their reuse (run_own_speed.c).
 void sb_run_store_states(SbRun *run, SbStatus status);
 
-// Copies the states of run->solved to the run, instead of sb_run_solve_states() (run_own_speed.c).
+// Copies the states of run->solved to the run (run_own_speed.c).
 void sb_run_restore_states(SbRun *run);
 
 // Adds *more to *sum.
@@ -272,8 +273,7 @@ typedef struct {
 SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *end,
                                 SbReport *report);
 
-// Returns whether the actuation delivers a dose: the chamber has been filled and emptied
-// (run_outcome.c).
+// Returns whether the chamber has been filled and emptied (run_outcome.c).
 bool sb_run_delivers(const SbRun *run);
 
 // Computes frames, stages, energies and leakage of the quasi-static cycle (run_cycle.c).
@@ -282,14 +282,14 @@ SbStatus sb_run_quasi_static(SbRun *run, const SbRunHooks *hooks, SbReport *repo
 // Computes frames, stages, energies and leakage of the motion with inertia (run_dynamic.c).
 SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 
-// Sets energies and step counts of a motion with inertia in the summary (run_dynamic.c).
+// Sets the step counts of a motion with inertia in the summary, and the energies of one of its
+// `cycles`: the mean of all (run_dynamic.c).
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
-                        const SbDynamicsCounters *counters);
+                        const SbDynamicsCounters *counters, int cycles);
 
 // Computes *speed, that of the stem in the middle of B-C, a magnitude [m/s], by a motion with
-// inertia. If the stem does not get there it is the mean speed from B to D, else from E to F, else
-// from E to rest; of a sinusoid that passes none of these stages its mean speed; else 0. *slips:
-// the stem slides (run_dynamic.c).
+// inertia; else the mean speed from B to D, else from E to F, else from E to rest; of a sinusoid
+// that passes none of these its mean speed; else 0. *slips: the stem slides (run_dynamic.c).
 SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
                               SbReport *report);
 
@@ -321,12 +321,14 @@ void sb_bore_start(SbBore *bore, double s);
 // the thickness `layer`.
 void sb_bore_move(SbBore *bore, double from, double to, double layer);
 
-// Sets leakage_per_cycle from the volumes of `bore`. It is NaN with a reason if `back` (the stem
-// has returned to its start) is false, and NaN if the stem never moved. The outcome must be set
-// (run_figures.c).
-void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore, bool back);
+// Sets leakage_per_cycle from the volumes of `bore`; NaN unless summary->closes (run_figures.c).
+void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore);
 
-// Sets the reasons of all missing figures, by the chosen models, the outcome, and the `status` and
+// Sets leakages and dose to NaN, with reasons, that belong to parts of the cycle that did not
+// happen, or to a seal that is open: by the outcome and by the outer seal's state (run_outcome.c).
+void sb_run_leave_out(SbRun *run);
+
+// Sets the reasons of all other missing figures, by the chosen models, and the `status` and
 // `report` of the run. All figures must be set before (run_figures.c).
 void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report);
 
@@ -373,19 +375,17 @@ SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report);
 void sb_run_set_user_fractions(SbSummary *summary, const SbModel *model);
 
 // Returns the mass that the last motion delivers [kg], >= 0: the `metered` mass [kg] multiplied by
-// sb_run_filled_share() (by 1 if that is NaN), minus the mass that remains in the vented chamber.
-// It is 0 if the canister's pressure is not above ambient, else NaN if sb_run_delivers() is false.
+// sb_run_filled_share() (by 1 if that is NaN), minus the mass that remains in the vented chamber; 0
+// if the canister's pressure is not above ambient; NaN if sb_run_delivers() is false.
 double sb_run_dose(const SbRun *run, double metered);
 
 // Sets run->count, and publishes the first `count` frames to readers unless run->hold is true.
 void sb_run_publish(SbRun *run, size_t count);
 
-// Stores the stage in the summary, from `frame`, whose index is `index`, unless it was reached
-// before.
+// Stores the stage in the summary, from the frame `index`, unless it was reached before.
 void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
 
-// Returns the error of the cycle's forces due to the errors of friction of both seals, divided by
-// the peak force [1]; 0 without a peak force.
+// Returns the error of the cycle's forces by both frictions over the peak force [1]; 0 without one.
 double sb_run_error_friction(const SbRun *run);
 
 // Calls hooks->progress. `fraction` is 0 to 1 of the work before the first frame if frames = 0,

@@ -7,6 +7,7 @@
 // that grow with time, until it is at rest.
 #include "engine/valve/run/run_record.h"
 
+#include "engine/numeric/root.h"
 #include "engine/valve/figures/figures.h"
 
 #include <math.h>
@@ -32,28 +33,51 @@ static void carry(SbRecorder *r, double end, double until, double pressure) {
   r->leak_since = until;
 }
 
-// Film dragged along by a stem that is at x. A contact carries what has entered it over its own
-// width, so that sticks and slips shorter than that count as one sliding: the film moves by whole
-// widths, up to where the stem turns, and up to x `now`. The stem passes the end of a width between
-// two frames or segments, at even speed.
-static void leak(SbRecorder *r, double time, double x, double pressure, bool now) {
+// Part of a motion between two instants: Hermite's cubic, and a place that the stem passes there.
+typedef struct {
+  double span, x[2], v[2]; // duration [s]; place and speed at the instants [m], [m/s]
+  double place;            // [m]
+} Passage;
+
+// Distance beyond the place at a fraction of the duration, > 0 behind it.
+static double beyond(double *slope, double fraction, const void *context) {
+  const Passage *p = context;
+  const double way = p->x[1] > p->x[0] ? 1 : -1;
+  const double x = sb_hermite(slope, fraction, p->span, p->x, p->v);
+  *slope *= way * p->span;
+  return way * (x - p->place);
+}
+
+// Film dragged along by a stem that is now at `at`. A contact carries what has entered it over its
+// own width, so that sticks and slips shorter than that count as one sliding: the film moves by
+// whole widths, up to where the stem turns, and up to the present place if `now`.
+static void leak(SbRecorder *r, const SbRecordedPlace *at, double pressure, bool now) {
   const SbSealState *outer = &r->run->cycle.state[SB_OUTER][SB_CHAMBER_AT_REST][SB_CYCLE_IN];
   const double width = outer->contact_right - outer->contact_left;
-  const double last = r->leak_last;
-  if ((x - last) * (last - r->leak_from) < 0) {
-    carry(r, last, r->leak_last_time, pressure);
+  const SbRecordedPlace *last = &r->last;
+  if ((at->x - last->x) * (last->x - r->leak_from) < 0) {
+    carry(r, last->x, r->moved, pressure);
   }
-  const double way = x - r->leak_from;
+  r->moved = at->x != last->x ? at->time : r->moved; // a dwell at the end is not sliding
+  while (width > 0 && fabs(at->x - r->leak_from) >= width) {
+    const double end = r->leak_from + copysign(width, at->x - r->leak_from);
+    const Passage passage = {
+        at->time - last->time, {last->x, at->x}, {last->speed, at->speed}, end};
+    const double share = at->x != last->x ? (end - last->x) / (at->x - last->x) : 1;
+    const double passed = sb_newton_bracketed(beyond, &passage, 0, 1, fmin(fmax(share, 0), 1));
+    carry(r, end, last->time + passed * passage.span, pressure);
+  }
   if (now || !(width > 0)) {
-    carry(r, x, x != last ? time : r->leak_last_time, pressure);
-    r->leak_since = time;
-  } else if (fabs(way) >= width) {
-    const double end = r->leak_from + copysign(width * floor(fabs(way) / width), way);
-    const double share = x != last ? fmin(fmax((end - last) / (x - last), 0), 1) : 1;
-    carry(r, end, r->leak_last_time + share * (time - r->leak_last_time), pressure);
+    carry(r, at->x, r->moved, pressure);
+    r->leak_since = at->time;
   }
-  r->leak_last_time = x != last ? time : r->leak_last_time; // a dwell at the end is not sliding
-  r->leak_last = x;
+  r->last = *at;
+}
+
+// As leak(), at an event or a frame.
+static void leak_at(SbRecorder *r, const SbDynamicsSample *sample, bool now) {
+  const SbRecordedPlace at = {sample->time, sample->position, sample->speed};
+  leak(r, &at, sb_valve_chamber_pressure(&r->valve, sample->extra), now);
 }
 
 // Adds a frame of the motion as it is now.
@@ -63,7 +87,7 @@ static SbFrame *add_frame(SbRecorder *r, bool event) {
   SbDynamicsSample *sample = &at.sample;
   sb_dynamics_sample(&r->motion, sample, NULL);
   at.pressure = sb_valve_chamber_pressure(&r->valve, sample->extra);
-  leak(r, sample->time, sample->position, at.pressure, event);
+  leak_at(r, sample, event);
   r->force_peak = fmax(r->force_peak, sample->drive_force);
   r->top = fmax(r->top, sample->position);
   if (!r->frames || r->count == run->capacity) {
@@ -86,6 +110,7 @@ static void mark(SbRecorder *r, SbStage stage, const SbMotionEvent *event) {
     return;
   }
   r->mark[stage] = (SbStageMark){true, event->time, event->position, event->drive_force, 0};
+  r->dwell = stage == SB_STAGE_E ? event->time - r->rested : r->dwell;
   // The dwell before a break-away and that at the stop are not part of sliding.
   const bool now = stage == SB_STAGE_B || stage == SB_STAGE_D || stage == SB_STAGE_E;
   SbFrame *frame = add_frame(r, now);
@@ -113,8 +138,7 @@ static void note_return(SbRecorder *r, const SbDynamicsSample *sample) {
 static void meet_edge(SbRecorder *r, const SbMotionEvent *event, const SbDynamicsSample *sample) {
   const SbValve *valve = &r->valve;
   double edge = valve->edge[event->index];
-  leak(r, sample->time, sample->position, sb_valve_chamber_pressure(valve, sample->extra),
-       edge == valve->edges.open || edge == valve->edges.closed);
+  leak_at(r, sample, edge == valve->edges.open || edge == valve->edges.closed);
   if (edge == valve->middle && event->sign > 0 && r->stage == SB_STAGE_B && r->middle == 0) {
     r->middle = event->speed;
   } else if (edge == valve->middle && event->sign < 0 && r->stage == SB_STAGE_F &&
@@ -132,7 +156,7 @@ static void meet_edge(SbRecorder *r, const SbMotionEvent *event, const SbDynamic
 }
 
 // The stem reaches a stop.
-static void meet_stop(SbRecorder *r, const SbMotionEvent *event, const SbDynamicsSample *sample) {
+static void meet_stop(SbRecorder *r, const SbMotionEvent *event) {
   if (event->index == SB_END_STOP) {
     r->stopped = true;
     r->rested = event->time;
@@ -141,10 +165,15 @@ static void meet_stop(SbRecorder *r, const SbMotionEvent *event, const SbDynamic
     }
     mark(r, SB_STAGE_D, event);
   } else if (r->mark[SB_STAGE_E].reached) {
-    leak(r, sample->time, sample->position, sb_valve_chamber_pressure(&r->valve, sample->extra),
-         true);
     r->home = r->home == 0 ? event->time : r->home;
   }
+}
+
+// Returns whether a stroke begins or ends at an event: dwells at the stops are not part of sliding.
+static bool bounds_stroke(const SbRecorder *r, const SbMotionEvent *event) {
+  const int direction = event->sign > 0 ? SB_CYCLE_IN : SB_CYCLE_OUT;
+  return event->kind == SB_MOTION_TOUCH_STOP || event->kind == SB_MOTION_LEAVE_STOP ||
+         (event->kind == SB_MOTION_SLIP && direction != r->direction);
 }
 
 static void valve_event(const SbMotionEvent *event, void *user) {
@@ -154,6 +183,9 @@ static void valve_event(const SbMotionEvent *event, void *user) {
   sb_dynamics_sample(&r->motion, &sample, NULL);
   if (r->mark[SB_STAGE_E].reached && event->speed < 0) {
     note_return(r, &sample);
+  }
+  if (bounds_stroke(r, event)) {
+    leak_at(r, &sample, true);
   }
   r->force_peak = fmax(r->force_peak, event->drive_force);
   r->top = fmax(r->top, event->position);
@@ -171,7 +203,7 @@ static void valve_event(const SbMotionEvent *event, void *user) {
     meet_edge(r, event, &sample);
     break;
   case SB_MOTION_TOUCH_STOP:
-    meet_stop(r, event, &sample);
+    meet_stop(r, event);
     break;
   case SB_MOTION_STICK:
     if (r->direction == SB_CYCLE_IN && !r->mark[SB_STAGE_D].reached) {
@@ -209,7 +241,8 @@ static double corner_at(const SbDriveTimes *times, int index) {
 static bool begin_segment(void *data) {
   SbRecorder *r = data;
   const SbDynamics *motion = &r->motion;
-  leak(r, motion->t, motion->at.x, sb_valve_chamber_pressure(&r->valve, motion->at.extra), false);
+  const SbRecordedPlace at = {motion->t, motion->at.x, motion->at.v};
+  leak(r, &at, sb_valve_chamber_pressure(&r->valve, motion->at.extra), false);
   return sb_work_step(r->run->work);
 }
 
@@ -272,7 +305,8 @@ SbStatus sb_run_record(SbRecorder *r, SbRun *run, bool frames, double tolerance,
   if (status != SB_OK) {
     return status;
   }
-  r->leak_from = r->leak_last = r->model.start_position;
+  run->period = r->valve.times.cycles > 1 ? r->valve.times.period : 0;
+  r->leak_from = r->last.x = r->model.start_position;
   sb_bore_start(&run->bore, r->leak_from);
   sb_dynamics_listen(&r->motion, valve_event, r);
   SbFrame *first = add_frame(r, true);
@@ -284,7 +318,9 @@ SbStatus sb_run_record(SbRecorder *r, SbRun *run, bool frames, double tolerance,
   r->force_peak = fmax(r->force_peak, r->motion.force_peak);
   SbDynamicsSample end;
   sb_dynamics_sample(&r->motion, &end, &r->energy);
-  leak(r, end.time, end.position, sb_valve_chamber_pressure(&r->valve, end.extra), true);
+  leak_at(r, &end, true);
+  run->bore.out /= r->valve.times.cycles;
+  run->bore.back /= r->valve.times.cycles;
   r->net = run->bore.out - run->bore.back;
   return status;
 }

@@ -5,6 +5,11 @@
 
 #include "engine/valve/run/run_valve.h"
 
+// The stem at an instant.
+typedef struct {
+  double time, x, speed; // [s], [m], [m/s]
+} SbRecordedPlace;
+
 // A motion and the data recorded during it.
 typedef struct {
   SbRun *run;
@@ -22,13 +27,15 @@ typedef struct {
   double return_least;          // smallest force that pushed the stem out while it slid back [N]
   double press;                 // force_peak when the stem meets the stop [N]
   double top;                   // largest displacement [m]
-  double rested;                // time at which the in-stroke came to rest [s]
+  double rested;                // time at which the last in-stroke came to rest [s]
+  double dwell;                 // from the in-stroke's rest to stage E [s]
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
-  double leak_last, leak_last_time; // where the stem was last seen, and when it came there
-  double home;                // time at which the stem is back on its rest stop [s], 0: not yet
-  double middle, middle_back; // speed at the middle of B-C and of F-A [m/s], 0: not yet
-  bool slips;                 // some contact has slid
-  double net;      // what the film carried out less what it carried back, at the end [m2]
+  SbRecordedPlace last;         // where the stem was last seen
+  double moved;                 // time at which it came there [s]
+  double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
+  double middle, middle_back;   // speed at the middle of B-C and of F-A [m/s], 0: not yet
+  bool slips;                   // some contact has slid
+  double net; // what the film carried out less what it carried back, mean of the actuations [m2]
   SbStatus status; // of the frames' reactions
   SbReport *report;
 } SbRecorder;

@@ -148,7 +148,7 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   // Slips, and what the plate's inertia adds to their force, are between two samples.
   summary->force_peak = sb_dynamics_force_peak(&motion);
   summary->duration = rig->duration;
-  sb_run_fill_motion(summary, &energy, &motion.counters);
+  sb_run_fill_motion(summary, &energy, &motion.counters, 1);
   summary->error_force = force_error(run, &motion);
   summary->error_energy = fmax(motion.counters.local_error, energy.closure);
   rig_errors(run);

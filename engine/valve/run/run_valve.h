@@ -10,9 +10,10 @@ typedef struct {
   double duration; // of the whole drive [s]; frames are evenly spaced over it
   double turn;     // a reverse slip after this time is the return, before it a rebound [s]
   bool ends_run;   // the run ends with the drive, without waiting for rest
+  int cycles;      // actuations in `duration`
   // Instants at which the platen turns or the slope of the finger's force changes; a frame is
-  // placed at each. `first` are those of the first period (first[1] = 0: one only); they repeat
-  // with `period` until there are `corners`.
+  // placed at each. `first` are those of the first actuation (first[1] = 0: one only); they repeat
+  // with `period` until there are `corners`. A drive of one actuation may have `period` = 0.
   int corners;
   double period, first[2]; // [s]
 } SbDriveTimes;
