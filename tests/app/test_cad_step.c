@@ -177,7 +177,7 @@ static void test_stem(void) {
     g_assert_cmpstr(cad->format, ==, "STEP");
     g_assert_cmpuint(cad->bodies->len, ==, 1);
     const SbCadBody *read = cad->bodies->pdata[0];
-    check_measured(read, &kernel, 1e-6);
+    check_measured(read, &kernel, 1e-9);
     check_stem(read, start);
     // Revolved, the half-section is the body.
     g_assert_cmpfloat_with_epsilon(read->revolved.volume / kernel.volume, 1, 5e-9);
@@ -203,7 +203,7 @@ static void test_port(void) {
   g_autoptr(SbCad) cad = through_file("port.stp", 0.658);
   finish();
   const SbCadBody *read = cad->bodies->pdata[0];
-  check_measured(read, &kernel, 1e-6);
+  check_measured(read, &kernel, 1e-9);
   check_stem(read, 0);
   // The hole is some pi/4 0.6^2 5.8 mm3.
   g_assert_cmpfloat_with_epsilon(1e9 * (read->revolved.volume - read->solid.volume),

@@ -69,9 +69,10 @@ def ball(draw):
 
 
 def vase(draw):
-    """A body whose outline is a spline."""
-    curve = Part.BSplineCurve()
-    curve.interpolate([FreeCAD.Vector(x, draw.uniform(1, 3), 0) for x in (0, 2, 5, 8)])
+    """A body whose outline is a spline of up to 16 waves."""
+    curve, count = Part.BSplineCurve(), draw.choice((4, 4, 16, 32))
+    wave = 1 / (count - 3)
+    curve.interpolate([FreeCAD.Vector(8 * i / (count - 1), draw.uniform(2 - wave, 2 + wave), 0) for i in range(count)])
     first, last = curve.value(curve.FirstParameter), curve.value(curve.LastParameter)
     corners = [last, FreeCAD.Vector(8, 0, 0), FreeCAD.Vector(0, 0, 0), first]
     wire = Part.Wire([curve.toShape(), *(Part.makeLine(p, q) for p, q in zip(corners, corners[1:]))])
@@ -91,7 +92,7 @@ def one(campaign, kind, number):
     body, exact, revolved = kind(draw)
     turn = FreeCAD.Rotation(FreeCAD.Vector(*(draw.uniform(-1, 1) for _ in range(3))), draw.uniform(0, 360))
     at = FreeCAD.Vector(*(draw.uniform(-30, 30) for _ in range(3)))
-    body = body.toNurbs()
+    body = body if kind == vase and draw.random() < 0.5 else body.toNurbs()  # or a surface of revolution
     body.Placement = FreeCAD.Placement(at, turn)
     path = f'{campaign.folder}/{kind.__name__}-{number}.step'
     body.exportStep(path)
