@@ -61,7 +61,7 @@ static bool by_mesh(SbSolid *solid) {
   }
   gmshFree(elements);
   gmshFree(nodes);
-  return sb_mesh_orient(&n_uv, triangles, corners / 3, vertices, NULL) == SB_OK &&
+  return sb_mesh_orient(&n_uv, NULL, triangles, corners / 3, vertices, NULL) == SB_OK &&
          sb_solid_mesh(solid, vertices, count, triangles, corners / 3, 1, NULL) == SB_OK;
 }
 
