@@ -287,12 +287,10 @@ static bool is_within(Node *node, size_t inner, size_t outer, const double *vert
     }
   }
   bool odd;
-  int tried = 0;
-  for (size_t i = 0; i < 3 * count && tried < TRIED_MAX; i++) {
-    if (root_of(node, i / 3, &odd) == inner) {
+  for (size_t i = 0, tried = 0; i < 3 * count; i++) {
+    if (root_of(node, i / 3, &odd) == inner && tried++ < TRIED_MAX) {
       const double turns = fabs(turns_about(node, outer, vertices + 3 * (size_t)triangles[i],
                                             vertices, triangles, count));
-      tried++;
       if (turns < 0.1 || turns > 0.9) {
         return turns > 0.9;
       }
@@ -467,7 +465,7 @@ static double asymmetry(const double inertia[3][3], int k) {
 }
 
 void sb_solid_axis(double axis[3], const double inertia[3][3]) {
-  static const double UNEVEN = 0.02, EVEN = 1e-3;
+  static const double UNEVEN = 0.02, CLEARLY = 0.1;
   double a[9], values[3], vectors[9], principal[3][3] = {{0}};
   int best = 0, other = 0, largest = 0;
   for (int k = 0; k < 9; k++) {
@@ -489,7 +487,8 @@ void sb_solid_axis(double axis[3], const double inertia[3][3]) {
                 : other;
   }
   const double off = asymmetry(inertia, best);
-  const bool turned = off > UNEVEN && asymmetry((const double(*)[3])principal, other) < EVEN;
+  const bool turned =
+      off > UNEVEN && asymmetry((const double(*)[3])principal, other) < fmin(UNEVEN, CLEARLY * off);
   for (int k = 0; k < 3; k++) {
     axis[k] = turned ? vectors[3 * k + other] : k == best;
     largest = fabs(axis[k]) > fabs(axis[largest]) ? k : largest;

@@ -248,8 +248,10 @@ static void test_axis(void) {
     for (int k = 0; k < 9; k++) {
       inertia[k / 3][k % 3] = (k % 4 == 0 ? 3 : 0) - 2 * d[k / 3] * d[k % 3];
     }
+    inertia[0][0] += i % 2 * 0.01; // not quite round, as with ports
     sb_solid_axis(axis, (const double(*)[3])inertia);
-    ASSERT_NEAR(fabs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]), 1, 1e-14);
+    ASSERT_NEAR(fabs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]), 1,
+                i % 2 == 0 ? 1e-14 : 1e-4);
     g_assert_cmpfloat(fmax(axis[0], fmax(axis[1], axis[2])), >, 0.57);
   }
   const double plain[2][3][3] = {{{3, 0, 0.01}, {0, 1, 0}, {0.01, 0, 3}},
