@@ -130,6 +130,11 @@ char *sb_cad_axis_text(const double *through, const double *direction);
 // Returns a drawing without bodies. `format` is static. Freed by sb_cad_free().
 SbCad *sb_cad_new(const char *format);
 
+// Writes volume [mm3], centre [mm] and moments about it [mm5], at 1 kg per mm3, of the body with
+// this tag in gmsh's kernel; not `mass`. Writes to *coarse whether they can be wrong by 1 %.
+// Returns false if the kernel cannot measure it. Only in sealbench-cad.
+bool sb_cad_measure(SbSolid *solid, int body, bool *coarse);
+
 // Reads a STEP file by sealbench-cad into a settled drawing (sb_cad_settle()). `shown` is the
 // printable path for messages. Errors as sb_cad_read().
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,

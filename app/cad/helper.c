@@ -7,6 +7,7 @@
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
 //   solid V cx cy cz Ixx Ixy Ixz Iyy Iyz Izz     volume, centre, moments about it at 1 kg/m3
+//   note TEXT                         a warning
 //   why TEXT                          instead of pieces
 //   piece x0 y0 x1 y1 bulge           of the half-section, in no order
 //   end
@@ -405,24 +406,20 @@ static void print_body(int body, int number) {
   }
   fprintf(out, "body %s\n", own);
   gmshFree(name);
-  // Volume, centre, and the moments of a matrix of three rows.
-  double solid[10] = {0}, *moment = NULL;
-  size_t count = 0;
-  int failed[3];
-  gmshModelOccGetMass(3, body, &solid[0], &failed[0]);
-  gmshModelOccGetCenterOfMass(3, body, &solid[1], &solid[2], &solid[3], &failed[1]);
-  gmshModelOccGetMatrixOfInertia(3, body, &moment, &count, &failed[2]);
-  check(failed[0] != 0 || failed[1] != 0 || failed[2] != 0 || count != 9,
-        "the kernel cannot measure a body");
-  const double to_volume = SCALE * SCALE * SCALE, to_moment = to_volume * SCALE * SCALE;
-  for (int k = 0; k < 10; k++) {
-    static const int from[] = {0, 1, 2, 4, 5, 8};
-    solid[k] = k == 0  ? to_volume * solid[k]
-               : k < 4 ? SCALE * solid[k]
-                       : to_moment * moment[from[k - 4]];
+  SbSolid solid;
+  bool coarse;
+  check(!sb_cad_measure(&solid, body, &coarse), "the kernel cannot measure a body");
+  double value[10] = {SCALE * SCALE * SCALE * solid.volume};
+  for (int k = 0; k < 9; k++) {
+    static const int at[] = {4, 5, 6, 5, 7, 8, 6, 8, 9};
+    value[1 + k % 3] = SCALE * solid.centre[k % 3];
+    value[at[k]] = pow(SCALE, 5) * solid.inertia[k / 3][k % 3];
   }
-  print_numbers("solid", solid, 10);
-  gmshFree(moment);
+  print_numbers("solid", value, 10);
+  if (coarse) {
+    fprintf(out, "note its volume and moments can be wrong by 1 %%: its spline faces could not be "
+                 "measured accurately\n");
+  }
   print_section(body);
   fflush(out);
 }

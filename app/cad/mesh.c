@@ -19,11 +19,9 @@ static const double SIDE_LEAST = 1e-3, SIDE_MOST = 40e-3, NEXT_TO = 1e-7, SHORT 
 // Half-planes that are tried, one in each sector about the axis.
 enum { SECTORS = 8 };
 
-// A connected part of the mesh; then a body with its cavities.
+// A connected part of the mesh with its cavities.
 typedef struct {
   GArray *triangles; // [3] vertex indices
-  double volume;     // signed: a cavity has a negative one
-  double low[3], high[3];
   SbSolid solid;
 } Shell;
 
@@ -59,87 +57,25 @@ static void shell_free(gpointer data) {
   g_free(data);
 }
 
-static unsigned root(unsigned *parent, unsigned v) {
-  while (parent[v] != v) {
-    v = parent[v] = parent[parent[v]];
-  }
-  return v;
-}
-
-// Adds a triangle: its corners to the box, its tetrahedron with the vertex `from` to the volume.
-static void add_triangle(Shell *shell, const SbStl *stl, const unsigned corner[3], unsigned from) {
-  double d[3][3], normal[3];
-  for (int k = 0; k < 3; k++) {
-    for (int j = 0; j < 3; j++) {
-      const double at = stl->vertices[3 * (gsize)corner[k] + (gsize)j];
-      shell->low[j] = fmin(shell->low[j], at);
-      shell->high[j] = fmax(shell->high[j], at);
-      d[k][j] = at - stl->vertices[3 * (gsize)from + (gsize)j];
-    }
-  }
-  sb_cad_cross(normal, d[1], d[2]);
-  shell->volume += sb_cad_dot(d[0], normal) / 6;
-  g_array_append_vals(shell->triangles, corner, 1);
-}
-
-// Returns the smallest body that encloses a cavity; NULL if there is none.
-static Shell *enclosing(const GPtrArray *shells, const Shell *cavity) {
-  Shell *best = NULL;
-  for (guint i = 0; i < shells->len; i++) {
-    Shell *shell = shells->pdata[i];
-    bool inside = shell->volume > 0;
-    for (int k = 0; k < 3; k++) {
-      inside = inside && shell->low[k] <= cavity->low[k] && shell->high[k] >= cavity->high[k];
-    }
-    best = inside && (best == NULL || shell->volume < best->volume) ? shell : best;
-  }
-  return best;
-}
-
-// Joins cavities to the bodies that enclose them.
-static void join_cavities(GPtrArray *shells) {
-  for (guint i = shells->len; i-- > 0;) {
-    const Shell *cavity = shells->pdata[i];
-    Shell *body = cavity->volume > 0 ? NULL : enclosing(shells, cavity);
-    if (body != NULL) {
-      g_array_append_vals(body->triangles, cavity->triangles->data, cavity->triangles->len);
-      g_ptr_array_remove_index(shells, i);
-    }
-  }
-}
-
 // Returns the bodies of the mesh in its order, each a connected part of it with its cavities; NULL
 // with an error if there are too many.
 static GPtrArray *find_bodies(const SbStl *stl, GError **error) {
   g_autoptr(GPtrArray) shells = g_ptr_array_new_with_free_func(shell_free);
-  g_autofree unsigned *parent = g_new(unsigned, stl->vertex_count);
-  g_autofree Shell **shell_of = g_new0(Shell *, stl->vertex_count);
-  for (gsize i = 0; i < stl->vertex_count; i++) {
-    parent[i] = (unsigned)i;
-  }
-  for (gsize i = 0; i < 3 * stl->triangle_count; i++) {
-    parent[root(parent, stl->triangles[i])] = root(parent, stl->triangles[i - i % 3]);
-  }
-  guint solids = 0;
-  for (gsize i = 0; i < stl->triangle_count && shells->len <= 100 * SB_CAD_BODIES_MAX; i++) {
-    const unsigned *corner = stl->triangles + 3 * i, top = root(parent, corner[0]);
-    if (shell_of[top] == NULL) {
-      Shell *shell = shell_of[top] = g_new0(Shell, 1);
-      shell->triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned));
-      sb_stl_extent(NULL, 0, shell->low, shell->high);
-      g_ptr_array_add(shells, shell);
+  g_autofree Shell **shell_of = g_new0(Shell *, stl->triangle_count + 1);
+  for (gsize i = 0; i < stl->triangle_count; i++) {
+    Shell **shell = &shell_of[stl->body[i]];
+    if (*shell == NULL && shells->len == SB_CAD_BODIES_MAX) {
+      sb_app_error_input(error, "it contains more than %d bodies: export the seal's parts alone",
+                         SB_CAD_BODIES_MAX);
+      return NULL;
     }
-    add_triangle(shell_of[top], stl, corner, top);
+    if (*shell == NULL) {
+      *shell = g_new0(Shell, 1);
+      (*shell)->triangles = g_array_new(FALSE, FALSE, 3 * sizeof(unsigned));
+      g_ptr_array_add(shells, *shell);
+    }
+    g_array_append_vals((*shell)->triangles, stl->triangles + 3 * i, 1);
   }
-  for (guint i = 0; i < shells->len; i++) {
-    solids += ((const Shell *)shells->pdata[i])->volume > 0;
-  }
-  if (solids > SB_CAD_BODIES_MAX || shells->len > 100 * SB_CAD_BODIES_MAX) {
-    sb_app_error_input(error, "it contains more than %d bodies: export the seal's parts alone",
-                       SB_CAD_BODIES_MAX);
-    return NULL;
-  }
-  join_cavities(shells);
   return g_steal_pointer(&shells);
 }
 

@@ -121,6 +121,8 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
                               n[0],
                               {n[1], n[2], n[3]},
                               {{n[4], n[5], n[6]}, {n[5], n[7], n[8]}, {n[6], n[8], n[9]}}};
+    } else if (body != NULL && g_str_has_prefix(line, "note ")) {
+      sb_note_add(cad->warnings, "%s: %s", body->name, line + 5);
     } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {
       body->why = sb_printable(line + 4, strlen(line + 4));
     } else if (g_str_has_prefix(line, "piece ") && read_numbers(n, 5, line + 6)) {

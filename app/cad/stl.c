@@ -234,7 +234,8 @@ static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize lengt
   }
   weld(out, corner, corners->len / 9, tolerance);
   SbReport report = {0};
-  return sb_mesh_orient(&out->turned, out->triangles, out->triangle_count, out->vertices,
+  out->body = g_new(gsize, out->triangle_count + 1);
+  return sb_mesh_orient(&out->turned, out->body, out->triangles, out->triangle_count, out->vertices,
                         &report) == SB_OK ||
          sb_app_error_input(error, "%s", report.text);
 }
@@ -268,6 +269,7 @@ void sb_stl_clear(SbStl *stl) {
   if (stl != NULL) {
     g_free(stl->vertices);
     g_free(stl->triangles);
+    g_free(stl->body);
     *stl = (SbStl){0};
   }
 }

@@ -17,6 +17,7 @@ enum { SB_STL_TRIANGLES_MAX = 2000000 };
 typedef struct {
   double *vertices;     // [vertex_count][3]: x, y, z in the file's axes [m]
   unsigned *triangles;  // [triangle_count][3]: vertex indices from 0, in the file's order
+  gsize *body;          // [triangle_count]: number of its body, below triangle_count
   gsize vertex_count;   //
   gsize triangle_count; //
   gsize dropped;        // triangles removed because two corners coincide

@@ -72,18 +72,21 @@ SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile,
 // Writes the unit vector of the axis about which a body is closest to a body of revolution;
 // `inertia` is its tensor (SbSolid). The asymmetry of an axis is the difference of the two moments
 // across it divided by their sum, including the products of inertia. The result is the coordinate
-// axis with the smallest asymmetry. If that exceeds 2 % and a principal axis has less than 0.1 %,
-// it is this principal axis. The largest component of the result is positive.
+// axis with the smallest asymmetry. If that exceeds 2 % and a principal axis has less than 2 % and
+// less than a tenth of it, it is this principal axis. The largest component of the result is
+// positive.
 void sb_solid_axis(double axis[3], const double inertia[3][3]);
 
-// Orients the triangles of a mesh consistently, outwards. A part is a set of triangles that are
-// connected by edges of exactly two triangles; its triangles get the orientation that most of its
-// area has. If a part is then inside out, it is reversed together with all parts inside its
-// bounding box. A mesh of more than 1000 parts is not changed. *turned receives the number of
-// triangles that were reversed. triangles[count][3] has vertex numbers, vertices[][3] the positions
-// (x, y, z) of the vertices, in any unit. SB_ERROR_INPUT: `count` is 0.
-SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const double *vertices,
-                        SbReport *report);
+// Orients the triangles of a mesh. A part is a set of triangles that are connected by edges of
+// exactly two triangles. A closed part within an odd number of others is a cavity of the innermost
+// of them and is oriented inwards, any other closed part outwards, however the file has them. The
+// triangles of an open part get the orientation that most of its area has. A mesh of more than 1000
+// parts is not changed. *turned receives the number of triangles that were reversed; body[count],
+// unless NULL, a number below `count` for each triangle, equal for those of a part and its
+// cavities, and for those of all open parts. triangles[count][3] has vertex numbers, vertices[][3]
+// the positions (x, y, z) of the vertices, in any unit. SB_ERROR_INPUT: `count` is 0.
+SbStatus sb_mesh_orient(size_t *turned, size_t *body, unsigned *triangles, size_t count,
+                        const double *vertices, SbReport *report);
 
 // Computes the body of a closed mesh with vertices[vertex_count][3] (x, y, z) [m] and
 // triangles[triangle_count][3] of vertex numbers, counter-clockwise seen from outside.

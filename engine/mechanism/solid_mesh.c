@@ -174,16 +174,18 @@ static SbStatus check_mesh(double *extent, const double *vertices, size_t vertex
 
 // ---- orientation ----
 
-// Largest number of parts whose places in each other are looked at.
-enum { PARTS_MAX = 1000 };
+// Largest numbers of parts whose places in each other are looked at, and of vertices of a part.
+enum { PARTS_MAX = 1000, TRIED_MAX = 100 };
 
 // A triangle in a tree of those that edges connect. Sums of the tree are at its root.
 typedef struct {
   size_t parent;
   bool odd;         // its orientation differs from that of its parent
   double area[2];   // of the triangles that are oriented as the root, and of the others
+  double normal[3]; // sum of their area vectors, where all are oriented as the root
   double volume;    // signed, where all are oriented as the root
   double box[2][3]; // lowest and highest coordinates
+  size_t body;      // the part that this one is a cavity of, else itself
   bool flip_same;   // whether triangles that are oriented as the root are to be reversed
 } Node;
 
@@ -243,45 +245,101 @@ static void add_to_part(Node *part, bool odd, const double *vertices, const unsi
     }
   }
   cross(n, d[0], d[1]);
+  for (int k = 0; k < 3; k++) {
+    part->normal[k] += odd ? -normal[k] : normal[k];
+  }
   part->area[odd] += sqrt(dot(normal, normal));
   part->volume += odd ? -dot(n, d[2]) : dot(n, d[2]);
 }
 
-// Returns the largest of the parts whose box encloses that of `part`: itself at least.
-static const Node *outermost(const Node *node, const size_t *parts, size_t count,
-                             const Node *part) {
-  const Node *best = part;
-  for (size_t i = 0; i < count; i++) {
-    const Node *other = &node[parts[i]];
-    bool around = true;
-    for (int k = 0; k < 3; k++) {
-      around = around && other->box[0][k] <= best->box[0][k] && other->box[1][k] >= best->box[1][k];
+// Returns the sum of the solid angles, divided by 4 pi, at which a point sees the triangles of the
+// part with this root: 1 or -1 inside, 0 outside.
+static double turns_about(Node *node, size_t root, const double *at, const double *vertices,
+                          const unsigned *triangles, size_t count) {
+  double sum = 0.0;
+  for (size_t t = 0; t < count; t++) {
+    bool odd;
+    if (root_of(node, t, &odd) == root) {
+      double d[3][3], size[3], n[3];
+      for (int i = 0; i < 3; i++) {
+        for (int k = 0; k < 3; k++) {
+          d[i][k] = vertices[3 * (size_t)triangles[3 * t + (size_t)i] + (size_t)k] - at[k];
+        }
+        size[i] = sqrt(dot(d[i], d[i]));
+      }
+      cross(n, d[0], d[1]); // A. van Oosterom, J. Strackee, IEEE Trans. Biomed. Eng. 30, 125, 1983
+      const double angle =
+          atan2(dot(n, d[2]), size[0] * size[1] * size[2] + dot(d[0], d[1]) * size[2] +
+                                  dot(d[1], d[2]) * size[0] + dot(d[2], d[0]) * size[1]);
+      sum += odd ? -angle : angle;
     }
-    best = around ? other : best;
   }
-  return best;
+  return sum / (2.0 * M_PI);
 }
 
-SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const double *vertices,
-                        SbReport *report) {
+// Returns whether a part is within another one: by its first vertex that is not on that.
+static bool is_within(Node *node, size_t inner, size_t outer, const double *vertices,
+                      const unsigned *triangles, size_t count) {
+  for (int k = 0; k < 3; k++) {
+    if (node[outer].box[0][k] > node[inner].box[0][k] ||
+        node[outer].box[1][k] < node[inner].box[1][k]) {
+      return false;
+    }
+  }
+  bool odd;
+  for (size_t i = 0, tried = 0; i < 3 * count; i++) {
+    if (root_of(node, i / 3, &odd) == inner && tried++ < TRIED_MAX) {
+      const double turns = fabs(turns_about(node, outer, vertices + 3 * (size_t)triangles[i],
+                                            vertices, triangles, count));
+      if (turns < 0.1 || turns > 0.9) {
+        return turns > 0.9;
+      }
+    }
+  }
+  return false;
+}
+
+static bool is_open(const Node *part) {
+  return sqrt(dot(part->normal, part->normal)) > 1e-9 * (part->area[0] + part->area[1]);
+}
+
+// Finds what a part is a cavity of, and whether it is to be reversed.
+static void place_part(Node *node, size_t i, const size_t *parts, size_t found,
+                       const double *vertices, const unsigned *triangles, size_t count) {
+  Node *part = &node[parts[i]];
+  size_t depth = 0;
+  part->body = parts[i];
+  part->flip_same = part->area[0] < part->area[1];
+  if (is_open(part)) {
+    return;
+  }
+  for (size_t k = 0; k < found; k++) {
+    if (k != i && is_within(node, parts[i], parts[k], vertices, triangles, count)) {
+      const bool nearer =
+          depth++ == 0 || fabs(node[parts[k]].volume) < fabs(node[part->body].volume);
+      part->body = nearer ? parts[k] : part->body;
+    }
+  }
+  part->body = depth % 2 == 1 ? part->body : parts[i];
+  part->flip_same = (part->volume >= 0.0) == (depth % 2 == 1);
+}
+
+SbStatus sb_mesh_orient(size_t *turned, size_t *body, unsigned *triangles, size_t count,
+                        const double *vertices, SbReport *report) {
   Node *node = calloc(count + 1, sizeof *node);
   Edge *edge = calloc(3 * count + 1, sizeof *edge);
   size_t parts[PARTS_MAX], found = 0;
   bool odd;
   *turned = 0;
-  if (count == 0) {
-    free(node);
-    free(edge);
-    return sb_fail(report, SB_ERROR_INPUT, "no triangles");
-  }
   for (size_t t = 0; node != NULL && t < count; t++) {
     node[t] = (Node){.parent = t,
                      .box = {{INFINITY, INFINITY, INFINITY}, {-INFINITY, -INFINITY, -INFINITY}}};
   }
-  if (node == NULL || edge == NULL) {
+  if (node == NULL || edge == NULL || count == 0) {
     free(node);
     free(edge);
-    return sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu triangles", count);
+    return count == 0 ? sb_fail(report, SB_ERROR_INPUT, "no triangles")
+                      : sb_fail(report, SB_ERROR_MEMORY, "no memory for %zu triangles", count);
   }
   connect_triangles(node, edge, triangles, count);
   for (size_t t = 0; t < count; t++) {
@@ -293,10 +351,12 @@ SbStatus sb_mesh_orient(size_t *turned, unsigned *triangles, size_t count, const
     }
   }
   for (size_t i = 0; i < found && found <= PARTS_MAX; i++) {
-    Node *part = &node[parts[i]];
-    const Node *out = outermost(node, parts, found, part);
-    const bool outwards = (out->area[0] >= out->area[1]) == (out->volume >= 0.0);
-    part->flip_same = (part->area[0] >= part->area[1]) != outwards;
+    place_part(node, i, parts, found, vertices, triangles, count);
+  }
+  for (size_t t = 0, first = count; t < count && body != NULL; t++) {
+    const size_t root = root_of(node, t, &odd);
+    first = first == count && is_open(&node[root]) ? root : first;
+    body[t] = is_open(&node[root]) ? first : found <= PARTS_MAX ? node[root].body : root;
   }
   for (size_t t = 0; t < count && found <= PARTS_MAX; t++) {
     if (node[root_of(node, t, &odd)].flip_same != odd) {
@@ -405,7 +465,7 @@ static double asymmetry(const double inertia[3][3], int k) {
 }
 
 void sb_solid_axis(double axis[3], const double inertia[3][3]) {
-  static const double UNEVEN = 0.02, EVEN = 1e-3;
+  static const double UNEVEN = 0.02, CLEARLY = 0.1;
   double a[9], values[3], vectors[9], principal[3][3] = {{0}};
   int best = 0, other = 0, largest = 0;
   for (int k = 0; k < 9; k++) {
@@ -427,7 +487,8 @@ void sb_solid_axis(double axis[3], const double inertia[3][3]) {
                 : other;
   }
   const double off = asymmetry(inertia, best);
-  const bool turned = off > UNEVEN && asymmetry((const double(*)[3])principal, other) < EVEN;
+  const bool turned =
+      off > UNEVEN && asymmetry((const double(*)[3])principal, other) < fmin(UNEVEN, CLEARLY * off);
   for (int k = 0; k < 3; k++) {
     axis[k] = turned ? vectors[3 * k + other] : k == best;
     largest = fabs(axis[k]) > fabs(axis[largest]) ? k : largest;

@@ -128,13 +128,13 @@ static void finish(void) {
   gmshFinalize(&ierr);
 }
 
-static void check_measured(const SbCadBody *body, const Measured *kernel) {
+static void check_measured(const SbCadBody *body, const Measured *kernel, double tolerance) {
   const double transverse = (body->solid.inertia[1][1] + body->solid.inertia[2][2]) / 2;
   g_assert_true(body->measured);
-  g_assert_cmpfloat_with_epsilon(body->solid.volume / kernel->volume, 1, 1e-9);
-  g_assert_cmpfloat_with_epsilon(body->solid.inertia[0][0] / kernel->axial, 1, 1e-9);
-  g_assert_cmpfloat_with_epsilon(transverse / kernel->transverse, 1, 1e-9);
-  g_assert_cmpfloat_with_epsilon(body->solid.centre[0], kernel->along, 1e-10);
+  g_assert_cmpfloat_with_epsilon(body->solid.volume / kernel->volume, 1, tolerance);
+  g_assert_cmpfloat_with_epsilon(body->solid.inertia[0][0] / kernel->axial, 1, tolerance);
+  g_assert_cmpfloat_with_epsilon(transverse / kernel->transverse, 1, tolerance);
+  g_assert_cmpfloat_with_epsilon(body->solid.centre[0], kernel->along, 0.1 * tolerance);
 }
 
 // Lands and grooves to a nanometre; `start`: where x = 0 of the drawing lies on the axis found.
@@ -177,7 +177,7 @@ static void test_stem(void) {
     g_assert_cmpstr(cad->format, ==, "STEP");
     g_assert_cmpuint(cad->bodies->len, ==, 1);
     const SbCadBody *read = cad->bodies->pdata[0];
-    check_measured(read, &kernel);
+    check_measured(read, &kernel, 1e-9);
     check_stem(read, start);
     // Revolved, the half-section is the body.
     g_assert_cmpfloat_with_epsilon(read->revolved.volume / kernel.volume, 1, 5e-9);
@@ -203,11 +203,28 @@ static void test_port(void) {
   g_autoptr(SbCad) cad = through_file("port.stp", 0.658);
   finish();
   const SbCadBody *read = cad->bodies->pdata[0];
-  check_measured(read, &kernel);
+  check_measured(read, &kernel, 1e-9);
   check_stem(read, 0);
   // The hole is some pi/4 0.6^2 5.8 mm3.
   g_assert_cmpfloat_with_epsilon(1e9 * (read->revolved.volume - read->solid.volume),
                                  M_PI * 0.09 * 5.8, 0.02);
+}
+
+// Scaled by next to nothing, all faces become splines, on which the kernel's quadrature is wrong by
+// up to 1 %: the numbers are those of the faces before. The case nurbs-stem.step is such a stem: of
+// pi (12 3^2 + 2 1.9^2) = 361.974 mm3, where the kernel computes 364.53.
+static void test_splines(void) {
+  begin();
+  int ierr, body[2] = {3, make_stem()};
+  const Measured kernel = measure(body[1], (const double[]){1, 0, 0});
+  gmshModelOccDilate(body, 2, 0, 0, 0, 1, 1, 1 + 1e-7, &ierr);
+  g_assert_cmpint(ierr, ==, 0);
+  g_assert_cmpfloat(fabs(measure(body[1], (const double[]){1, 0, 0}).volume / kernel.volume - 1), >,
+                    1e-3);
+  g_autoptr(SbCad) cad = through_file("stem.step", 0.658);
+  finish();
+  check_measured(cad->bodies->pdata[0], &kernel, 3e-5);
+  g_assert_cmpuint(cad->warnings->len, ==, 0);
 }
 
 // A ball: the axis passes through its centre, along x or as chosen; a chosen point replaces it. A
@@ -327,6 +344,7 @@ int main(int argc, char **argv) {
   folder = g_dir_make_tmp("sealbench-cad-XXXXXX", NULL);
   g_test_add_func("/cad-step/stem", test_stem);
   g_test_add_func("/cad-step/port", test_port);
+  g_test_add_func("/cad-step/splines", test_splines);
   g_test_add_func("/cad-step/ball", test_ball);
   g_test_add_func("/cad-step/broken", test_broken);
   g_test_add_func("/cad-step/limit", test_limit);
