@@ -59,13 +59,20 @@ static void leak(SbRecorder *r, const SbRecordedPlace *at, double pressure, bool
     carry(r, last->x, r->moved, pressure);
   }
   r->moved = at->x != last->x ? at->time : r->moved; // a dwell at the end is not sliding
+  // Between instants that skip cycles of stick-slip, or whose speeds are those of short slips, the
+  // stem moves evenly.
+  const double span = at->time - last->time, mean = span > 0 ? (at->x - last->x) / span : 0;
+  const double first = last->speed / mean, second = at->speed / mean;
+  const bool smooth = r->motion.counters.repeated == r->repeated && first >= 0 && first <= 3.01 &&
+                      second >= 0 && second <= 3.01;
+  r->repeated = r->motion.counters.repeated;
   while (width > 0 && fabs(at->x - r->leak_from) >= width) {
     const double end = r->leak_from + copysign(width, at->x - r->leak_from);
-    const Passage passage = {
-        at->time - last->time, {last->x, at->x}, {last->speed, at->speed}, end};
-    const double share = at->x != last->x ? (end - last->x) / (at->x - last->x) : 1;
-    const double passed = sb_newton_bracketed(beyond, &passage, 0, 1, fmin(fmax(share, 0), 1));
-    carry(r, end, last->time + passed * passage.span, pressure);
+    const double share =
+        at->x != last->x ? fmin(fmax((end - last->x) / (at->x - last->x), 0), 1) : 1;
+    const Passage passage = {span, {last->x, at->x}, {last->speed, at->speed}, end};
+    const double passed = smooth ? sb_newton_bracketed(beyond, &passage, 0, 1, share) : share;
+    carry(r, end, last->time + passed * span, pressure);
   }
   if (now || !(width > 0)) {
     carry(r, at->x, r->moved, pressure);

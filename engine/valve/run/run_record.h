@@ -32,6 +32,7 @@ typedef struct {
   double leak_from, leak_since; // place [m] and time [s] up to which it is known
   SbRecordedPlace last;         // where the stem was last seen
   double moved;                 // time at which it came there [s]
+  long repeated;                // cycles of stick-slip skipped until then
   double home;                  // time at which the stem is back on its rest stop [s], 0: not yet
   double middle, middle_back;   // speed at the middle of B-C and of F-A [m/s], 0: not yet
   bool slips;                   // some contact has slid
