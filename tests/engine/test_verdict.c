@@ -242,6 +242,20 @@ static void test_uncertain(void) {
     g_assert_cmpint(of->ok, ==, row[i].ok);
     g_assert_true(g_str_has_prefix(of->reason, "uncertain") == (row[i].ok == SB_ANSWER_UNKNOWN));
   }
+  // The same holds for a stem that is stuck.
+  const int margin = sb_figure_find("cycle.force_return_margin_N");
+  const double known = sb_figure_error_absolute(summary, margin),
+               found = summary->force_return_margin;
+  model.limits.count = 0;
+  summary->outcome = SB_OUTCOME_STUCK;
+  for (int k = 0; k < 2; k++) {
+    summary->force_return_margin = k == 0 ? -0.5 * known : -2 * known;
+    sb_verdict_fill(summary, &model);
+    g_assert_cmpint(summary->verdict[SB_VERDICT_RETURNS].ok, ==,
+                    k == 0 ? SB_ANSWER_UNKNOWN : SB_ANSWER_NO);
+  }
+  summary->outcome = SB_OUTCOME_RETURNED;
+  summary->force_return_margin = found;
   // Karaszkiewicz' film is a fraction of the thesis': a limit between them is judged by neither.
   const int film = sb_figure_find("seals.outer.film_central_m");
   const double apart =

@@ -192,6 +192,7 @@ static SbVerdict judge_return(const SbSummary *summary, const SbModel *model) {
   case SB_OUTCOME_STUCK:
     out.ok = SB_ANSWER_NO;
     sb_message(out.reason, SB_TEXT, "the stem is stuck at %.4g mm", 1e3 * summary->stuck_at);
+    doubt(&out, summary, 0);
     break;
   case SB_OUTCOME_RETURNED:
     out.ok = value >= 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
