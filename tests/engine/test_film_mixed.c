@@ -273,8 +273,13 @@ static void test_profile(void) {
                      off, worst / (b * b / problem.radius));
       g_assert_cmpfloat(off, <, 2e-3);
       // The asperities' pressure is the law's at the film shown.
-      SbRoughSurface surface = {(SbRoughModel)model,     problem.gt_product, problem.sigma,
-                                problem.sigma_over_beta, problem.modulus,    0, 0};
+      SbRoughSurface surface = {(SbRoughModel)model,
+                                problem.gt_product,
+                                problem.sigma,
+                                problem.sigma_over_beta,
+                                problem.modulus,
+                                0,
+                                0};
       SbRoughLaw law;
       g_assert_cmpint(sb_rough_law_init(&law, &surface, NULL), ==, SB_OK);
       for (size_t i = 0; i < film.points; i += 50) {
