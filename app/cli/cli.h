@@ -271,10 +271,11 @@ int sb_cli_studies(SbStudy *out, size_t *count, const SbModel *model, unsigned m
 SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, const char *what,
                         SbReport *report);
 
-// Writes the worst answers of the finished run of a scene and of its cases to
-// verdict[SB_VERDICT_COUNT] and prints the problems. `verdict` is complete in any case. Returns
-// SB_OK, or the status of the last case that failed; SB_ERROR_CANCELLED after an interrupt.
-SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document);
+// Writes the worst answers of the finished run of a scene (with its `count` studies) and of its
+// cases to verdict[SB_VERDICT_COUNT] and prints the problems. `verdict` is complete in any case.
+// Returns SB_OK, or the status of the last case that failed; SB_ERROR_CANCELLED after an interrupt.
+SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document,
+                      const SbStudy *studies, size_t count);
 
 // Help of --measured.
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"

@@ -41,13 +41,13 @@ static int write_pages(const char *output, const SbReportScene *scene, const SbR
 static int report_run(const SbRun *run, const SbDocument *document, const SbMeasured *measured,
                       const ReportOptions *options) {
   SbCaseVerdict verdict[SB_VERDICT_COUNT];
-  const SbStatus judged = sb_cli_judge(verdict, run, document);
   g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
   size_t count = 0;
   const SbModel *model = sb_run_model(run);
   const unsigned mask = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES);
   const int studied =
       sb_cli_interrupted(NULL) ? SB_EXIT_INTERRUPTED : sb_cli_studies(studies, &count, model, mask);
+  const SbStatus judged = sb_cli_judge(verdict, run, document, studies, count);
   if (studied == SB_EXIT_INTERRUPTED || judged == SB_ERROR_CANCELLED) {
     sb_cli_fail("interrupted: nothing was written");
     return SB_EXIT_INTERRUPTED;

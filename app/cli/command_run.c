@@ -104,17 +104,17 @@ static int run_one_file(SbCliFiles *files, const SbCliFile *file, void *data) {
     g_autofree char *sha256 = sb_document_sha256(file->document);
     size_t study_count = 0;
     SbCaseVerdict verdict[SB_VERDICT_COUNT];
-    const SbStatus judged = sb_cli_judge(verdict, run, file->document);
+    if (status != SB_ERROR_CANCELLED && plan->studies != 0) {
+      studies = g_new(SbStudy, SB_STUDY_COUNT);
+      int studied = sb_cli_studies(studies, &study_count, model, plan->studies);
+      code = studied != SB_EXIT_DONE ? studied : code;
+    }
+    const SbStatus judged = sb_cli_judge(verdict, run, file->document, studies, study_count);
     const int judged_code = judged == SB_OK                ? SB_EXIT_DONE
                             : judged == SB_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED
                             : judged == SB_ERROR_MEMORY    ? SB_EXIT_IO
                                                            : SB_EXIT_NOT_CONVERGED;
     code = MAX(code, judged_code);
-    if (code != SB_EXIT_INTERRUPTED && plan->studies != 0) {
-      studies = g_new(SbStudy, SB_STUDY_COUNT);
-      int studied = sb_cli_studies(studies, &study_count, model, plan->studies);
-      code = studied != SB_EXIT_DONE ? studied : code;
-    }
     SbLoop loop = {0};
     g_autoptr(SbComparison) comparison =
         measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;

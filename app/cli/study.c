@@ -25,12 +25,15 @@ SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, c
   return executed;
 }
 
-SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document) {
+SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document,
+                      const SbStudy *studies, size_t count) {
+  SbVerdict own[SB_VERDICT_COUNT];
+  sb_cases_own(own, run, studies, count);
   g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
   SbProgress progress;
   sb_progress_start(&progress, "cases ");
   const SbRunHooks hooks = {.progress = on_run, .cancelled = sb_cli_interrupted, .data = &progress};
-  const SbStatus status = sb_cases_judge(verdict, run, document, &hooks, problems);
+  const SbStatus status = sb_cases_judge(verdict, own, document, &hooks, problems);
   sb_progress_end(&progress);
   for (guint i = 0; i < problems->len; i++) {
     sb_cli_fail("%s", (const char *)problems->pdata[i]);

@@ -224,19 +224,22 @@ static bool write_results(SbExportJob *job, const SbDocument *document, GError *
   const SbRunHooks hooks = {.cancelled = film_cancelled, .data = job};
   SbCaseVerdict verdict[SB_VERDICT_COUNT];
   g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
-  (void)sb_cases_judge(verdict, run, document, &hooks, problems);
+  g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
+  const size_t study_count = make_studies(job, studies, sb_run_model(run));
+  SbVerdict own[SB_VERDICT_COUNT];
+  sb_cases_own(own, run, studies, study_count);
+  (void)sb_cases_judge(verdict, own, document, &hooks, problems);
   g_autoptr(SbMeasured) measured = read_measured(&job->request);
   SbLoop loop = {0};
   g_autoptr(SbComparison) comparison =
       measured != NULL && sb_loop_take(&loop, run) ? sb_comparison_create(measured, &loop) : NULL;
   sb_loop_clear(&loop);
-  g_autofree SbStudy *studies = g_new(SbStudy, SB_STUDY_COUNT);
   const SbReportScene scene = {.document = document,
                                .run = run,
                                .verdict = verdict,
                                .measured = comparison,
                                .studies = studies,
-                               .study_count = make_studies(job, studies, sb_run_model(run))};
+                               .study_count = study_count};
   return !film_cancelled(job) &&
          (sb_output_ends_in(job->request.path, ".json") ? write_json(job, &scene, error)
                                                         : write_pages(job, &scene, error));

@@ -334,7 +334,8 @@ SbSceneStatus sb_scene_judge(SbScene *scene) {
   const SbRunHooks hooks = {.progress = on_progress, .cancelled = is_cancelled, .data = &part};
   SbCaseVerdict worst[SB_VERDICT_COUNT];
   g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
-  SbStatus cases = sb_cases_judge(worst, scene->run, scene->document, &hooks, problems);
+  SbStatus cases =
+      sb_cases_judge(worst, sb_run_summary(scene->run)->verdict, scene->document, &hooks, problems);
   sb_answers_take(&scene->answers, worst);
   if (run != SB_SCENE_OK || cases == SB_OK) {
     return run;

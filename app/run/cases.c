@@ -21,6 +21,16 @@ static SbStatus evaluate(SbVerdict out[SB_VERDICT_COUNT], const SbModel *model,
   return status;
 }
 
+void sb_cases_own(SbVerdict out[SB_VERDICT_COUNT], const SbRun *run, const SbStudy *studies,
+                  size_t count) {
+  const SbModel *model = sb_run_model(run);
+  double spread[SB_FIGURE_COUNT] = {0};
+  for (size_t i = 0; i < count; i++) {
+    sb_study_spread(spread, &studies[i], model);
+  }
+  sb_verdict_judge(out, sb_run_summary(run), model, spread);
+}
+
 // Progress over all cases.
 typedef struct {
   const SbRunHooks *hooks;
@@ -41,14 +51,15 @@ static bool on_cancelled(void *data) {
          share->hooks->cancelled(share->hooks->data);
 }
 
-SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
+SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbVerdict own[SB_VERDICT_COUNT],
                         const SbDocument *document, const SbRunHooks *hooks, GPtrArray *problems) {
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
-    out[kind] = (SbCaseVerdict){sb_run_summary(run)->verdict[kind], NULL};
+    out[kind] = (SbCaseVerdict){own[kind], NULL};
   }
   SbStatus worst = SB_OK;
   Share share = {hooks, 0, sb_document_case_count(document)};
-  const SbRunHooks own = {.progress = on_progress, .cancelled = on_cancelled, .data = &share};
+  const SbRunHooks each_hooks = {
+      .progress = on_progress, .cancelled = on_cancelled, .data = &share};
   g_autoptr(GPtrArray) issues = sb_issues_new();
   for (; share.index < share.count; share.index++) {
     const char *name = sb_document_case_name(document, share.index);
@@ -61,7 +72,7 @@ SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
     }
     if (worst != SB_ERROR_CANCELLED) {
       status = sb_document_compile_case(document, share.index, &model, issues)
-                   ? evaluate(each, model, &own, &report)
+                   ? evaluate(each, model, &each_hooks, &report)
                    : sb_fail(&report, SB_ERROR_INPUT, "its values are inconsistent");
     }
     if (status == SB_ERROR_CANCELLED) {

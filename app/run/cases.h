@@ -4,6 +4,7 @@
 
 #include "app/document/document.h"
 #include "engine/valve/sealbench.h"
+#include "engine/valve/studies/study.h"
 
 // The worst answer to one question of the verdict.
 typedef struct {
@@ -13,10 +14,15 @@ typedef struct {
   const char *name;
 } SbCaseVerdict;
 
+// Writes the verdict of the finished run of a scene, to which the models that its `studies` compare
+// are known as well (sb_study_spread()).
+void sb_cases_own(SbVerdict out[SB_VERDICT_COUNT], const SbRun *run, const SbStudy *studies,
+                  size_t count);
+
 // Computes all cases of `document` one after the other, each with its own values and models, but
 // only the figures: no profiles, interior fields, studies or later actuations of a life. Writes to
-// out[kind] (kind: SbVerdictKind) the worst answer of `run` and of all cases. `run` is the finished
-// run of the scene itself. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and
+// out[kind] (kind: SbVerdictKind) the worst answer of the scene itself, which has `own`, and of all
+// cases. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and
 // may cancel.
 //
 // Returns SB_OK, or the status of the last case that did not end with SB_OK: SB_ERROR_INPUT if its
@@ -25,7 +31,7 @@ typedef struct {
 // unless the scene or another case answers no. Each failed case, except one that was cancelled,
 // appends a sentence with its name to `problems`, a list of char * that the caller creates with
 // g_free() as its free function. After a cancellation the remaining cases are not computed.
-SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbRun *run,
+SbStatus sb_cases_judge(SbCaseVerdict out[SB_VERDICT_COUNT], const SbVerdict own[SB_VERDICT_COUNT],
                         const SbDocument *document, const SbRunHooks *hooks, GPtrArray *problems);
 
 // Appends one item to the plan of the scene: "N cases", with the sum of the costs of all cases [s]

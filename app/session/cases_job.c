@@ -24,8 +24,8 @@ static void work(void *owner) {
   if (job->document != NULL) {
     const SbRunHooks hooks = {.cancelled = sb_worker_cancelled, .data = &job->worker};
     // A case that fails says so in the answers that it has none for.
-    (void)sb_cases_judge(job->verdict, sb_run_handle_run(job->handle), job->document, &hooks,
-                         problems);
+    (void)sb_cases_judge(job->verdict, sb_run_summary(sb_run_handle_run(job->handle))->verdict,
+                         job->document, &hooks, problems);
   }
 }
 

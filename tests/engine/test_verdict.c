@@ -256,6 +256,18 @@ static void test_uncertain(void) {
   }
   summary->outcome = SB_OUTCOME_RETURNED;
   summary->force_return_margin = found;
+  // And for models that were computed in addition.
+  const int load = sb_figure_find("seals.outer.load_N");
+  double spread[SB_FIGURE_COUNT] = {0};
+  SbVerdict judged[SB_VERDICT_COUNT];
+  model.limits =
+      (SbLimits){.count = 1, .item = {{load, sb_figure_value(summary, load) - 0.8, INFINITY}}};
+  for (int k = 0; k < 2; k++) {
+    spread[load] = k;
+    sb_verdict_judge(judged, summary, &model, spread);
+    g_assert_cmpint(judged[sb_figure(load)->verdict].ok, ==,
+                    k == 0 ? SB_ANSWER_YES : SB_ANSWER_UNKNOWN);
+  }
   // Karaszkiewicz' film is a fraction of the thesis': a limit between them is judged by neither.
   const int film = sb_figure_find("seals.outer.film_central_m");
   const double apart =

@@ -219,6 +219,13 @@ const char *sb_verdict_name(SbVerdictKind kind);
 // remains.
 bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next);
 
+// Writes the verdict on a run from the model's limits. spread[SB_FIGURE_COUNT] has the differences
+// between models that were computed in addition to the run, in the SI unit of the figures, 0 where
+// there are none (NULL: none at all): a margin below them is uncertain. Does not read
+// summary->verdict.
+void sb_verdict_judge(SbVerdict verdict[SB_VERDICT_COUNT], const SbSummary *summary,
+                      const SbModel *model, const double *spread);
+
 // Sets summary->verdict from the model's limits. All other members that the run computes, with
 // errors and reasons, must be set before.
 void sb_verdict_fill(SbSummary *summary, const SbModel *model);

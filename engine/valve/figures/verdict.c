@@ -59,7 +59,7 @@ bool sb_verdict_take_worse(SbVerdict *worst, const SbVerdict *next) {
 
 // Returns the largest difference of the film models that were computed for the figure's seal, in
 // the figure's unit; 0 for a figure that no other model has computed.
-static double model_spread(const SbSummary *summary, int index) {
+static double film_spread(const SbSummary *summary, int index) {
   const SbFigure *figure = sb_figure(index);
   const bool film = figure->error == SB_BY_FILM || figure->error == SB_BY_FILM_LEAST;
   if (!film || figure->seal == SB_SEAL_COUNT) {
@@ -77,16 +77,24 @@ static double model_spread(const SbSummary *summary, int index) {
   return spread > 0 ? spread : 0;
 }
 
+// What is judged.
+typedef struct {
+  const SbSummary *summary;
+  const SbModel *model;
+  const double *spread; // [SB_FIGURE_COUNT] between models computed elsewhere; NULL: none
+} Judged;
+
 // Makes an answer unknown whose figure is nearer to `bound` than it is known.
-static void doubt(SbVerdict *of, const SbSummary *summary, double bound) {
+static void doubt(SbVerdict *of, const Judged *judged, double bound) {
   const double margin = fabs(of->value - bound);
-  const bool error = margin < sb_figure_error_absolute(summary, of->figure);
-  const bool models = margin < model_spread(summary, of->figure);
+  const bool error = margin < sb_figure_error_absolute(judged->summary, of->figure);
+  const bool models = margin < film_spread(judged->summary, of->figure) ||
+                      (judged->spread != NULL && margin < judged->spread[of->figure]);
   if (of->ok != SB_ANSWER_UNKNOWN && (error || models)) {
     of->ok = SB_ANSWER_UNKNOWN;
     sb_message(of->reason, SB_TEXT, "uncertain: the margin of %s is less than %s",
                sb_figure(of->figure)->path,
-               error ? "its estimated error" : "the difference between the computed film models");
+               error ? "its estimated error" : "the difference between the computed models");
   }
 }
 
@@ -103,7 +111,9 @@ static void doubt_walls(SbVerdict *of, const SbModel *model, int seal) {
   }
 }
 
-static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int seal) {
+static SbVerdict judge_seal(const Judged *judged, int seal) {
+  const SbSummary *summary = judged->summary;
+  const SbModel *model = judged->model;
   const SbSealState *of = &summary->seal[seal];
   SbSealPressure side = sb_model_seal_pressure(model, seal, SB_CHAMBER_AT_REST);
   int figure = seal_figure(seal, "pressure_peak_Pa");
@@ -121,7 +131,7 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
                sb_seal_name(seal));
   }
   if (of->leak_state != SB_LEAK_OPEN) {
-    doubt(&out, summary, out.limit);
+    doubt(&out, judged, out.limit);
   }
   // A model that does not solve the stretch cannot decide that a ring seals if its estimate does
   // not reach the bore.
@@ -153,7 +163,8 @@ static SbVerdict judge_seal(const SbSummary *summary, const SbModel *model, int 
   return out;
 }
 
-static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
+static SbVerdict judge_limit(const Judged *judged, const SbLimit *limit) {
+  const SbSummary *summary = judged->summary;
   const SbFigure *figure = sb_figure(limit->figure);
   double value = sb_figure_value(summary, limit->figure);
   bool near_high = !isfinite(limit->low) || value - limit->low > limit->high - value;
@@ -170,12 +181,13 @@ static SbVerdict judge_limit(const SbSummary *summary, const SbLimit *limit) {
     sb_message(out.reason, SB_TEXT, "%s is %s its limit", figure->path,
                value < limit->low ? "below" : "above");
   }
-  doubt(&out, summary, out.limit);
+  doubt(&out, judged, out.limit);
   return out;
 }
 
 // Whether the stem returns: by its outcome and by the return margin, the figure that decides.
-static SbVerdict judge_return(const SbSummary *summary, const SbModel *model) {
+static SbVerdict judge_return(const Judged *judged) {
+  const SbSummary *summary = judged->summary;
   const int figure = sb_figure_find("cycle.force_return_margin_N");
   const double value = summary->force_return_margin;
   SbVerdict out = {SB_ANSWER_UNKNOWN, figure, value, NAN, ""};
@@ -192,7 +204,7 @@ static SbVerdict judge_return(const SbSummary *summary, const SbModel *model) {
   case SB_OUTCOME_STUCK:
     out.ok = SB_ANSWER_NO;
     sb_message(out.reason, SB_TEXT, "the stem is stuck at %.4g mm", 1e3 * summary->stuck_at);
-    doubt(&out, summary, 0);
+    doubt(&out, judged, 0);
     break;
   case SB_OUTCOME_RETURNED:
     out.ok = value >= 0 ? SB_ANSWER_YES : SB_ANSWER_NO;
@@ -200,9 +212,9 @@ static SbVerdict judge_return(const SbSummary *summary, const SbModel *model) {
                value >= 0 ? ""
                           : "where the stem stops on its return, static friction exceeds the force "
                             "that pushes it back");
-    doubt(&out, summary, 0);
-    doubt_walls(&out, model, SB_OUTER);
-    doubt_walls(&out, model, SB_INNER);
+    doubt(&out, judged, 0);
+    doubt_walls(&out, judged->model, SB_OUTER);
+    doubt_walls(&out, judged->model, SB_INNER);
     break;
   }
   return out;
@@ -224,8 +236,9 @@ static void state_sizes(SbVerdict *verdict, const SbModel *model) {
   }
 }
 
-void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
-  SbVerdict *verdict = summary->verdict;
+void sb_verdict_judge(SbVerdict verdict[SB_VERDICT_COUNT], const SbSummary *summary,
+                      const SbModel *model, const double *spread) {
+  const Judged judged = {summary, model, spread};
   const int margin_figure = sb_figure_find("cycle.force_return_margin_N");
   for (int kind = 0; kind < SB_VERDICT_COUNT; kind++) {
     verdict[kind] = (SbVerdict){SB_ANSWER_UNKNOWN, -1, NAN, NAN, "no limit is set"};
@@ -235,14 +248,14 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   } else {
     SbVerdict *seals = &verdict[SB_VERDICT_SEALS];
     for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
-      SbVerdict of = judge_seal(summary, model, seal), other = *seals;
+      SbVerdict of = judge_seal(&judged, seal), other = *seals;
       other = sb_verdict_take_worse(seals, &of) ? other : of;
       if (seals->ok == SB_ANSWER_YES && other.ok == SB_ANSWER_YES && seals->reason[0] == '\0') {
         memcpy(seals->reason, other.reason, sizeof seals->reason); // the other one rolls
       }
     }
   }
-  verdict[SB_VERDICT_RETURNS] = judge_return(summary, model);
+  verdict[SB_VERDICT_RETURNS] = judge_return(&judged);
   if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
     const int press = sb_figure_find("cycle.force_press_N");
     verdict[SB_VERDICT_PRESSES] = (SbVerdict){SB_ANSWER_NO, press, NAN, NAN, ""};
@@ -260,7 +273,7 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
   for (size_t i = 0; i < model->limits.count; i++) {
     const SbLimit *limit = &model->limits.item[i];
     SbVerdictKind kind = sb_figure(limit->figure)->verdict;
-    SbVerdict of = judge_limit(summary, limit);
+    SbVerdict of = judge_limit(&judged, limit);
     if (kind == SB_VERDICT_RETURNS && verdict[kind].ok == SB_ANSWER_YES) {
       // The return margin decides. A limit on the margin replaces the margin itself; a limit on
       // another figure judges that figure and appears only if it is violated.
@@ -274,4 +287,8 @@ void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
     sb_verdict_take_worse(&verdict[kind], &of);
   }
   state_sizes(verdict, model);
+}
+
+void sb_verdict_fill(SbSummary *summary, const SbModel *model) {
+  sb_verdict_judge(summary->verdict, summary, model, NULL);
 }

@@ -178,6 +178,11 @@ bool sb_study_has_grid(SbStudyKind kind);
 // in these columns.
 size_t sb_study_extra(const SbParamId **out, SbStudyKind kind);
 
+// Raises spread[SB_FIGURE_COUNT], in the SI unit of the figures, to the differences between the
+// models that a study compares at the pressure of the scene `model`: load, peak pressure and
+// contact width of the outer seal by SB_STUDY_MODELS. Other studies have none.
+void sb_study_spread(double spread[SB_FIGURE_COUNT], const SbStudy *study, const SbModel *model);
+
 // Computes the study `kind` of the scene `model`. `grid` is required if sb_study_has_grid(kind),
 // else NULL. `hooks` may be NULL. If a solver fails at a point, or the study exhausts its own
 // budget of output.work_limit solver steps, the curves have a gap there, a warning states why,

@@ -13,9 +13,12 @@
 // the total load, which the 5 N and 8 N of the cycle need, it is larger by m: "with m". Measured:
 // 0.51.
 #include "engine/contact/rough/greenwood_tripp.h"
+#include "engine/numeric/root.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/studies/study_private.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { THESIS, DISC_THESIS, DISC, RING, KARASZKIEWICZ, MODELS, TABLE_MODELS = 4 };
@@ -166,6 +169,35 @@ static void make(SbStudyWork *work) {
                 model->load_coefficient);
   if (!is_thesis(model)) {
     sb_study_note(out, "Ring and gland are not the thesis': its printed values are left out.");
+  }
+}
+
+// Returns the ordinate of a curve at x, linear between its points; NaN beyond them.
+static double ordinate(const SbStudySeries *curve, double x) {
+  if (curve->count < 2 || x < curve->x[0] || x > curve->x[curve->count - 1]) {
+    return NAN;
+  }
+  const size_t i = sb_interval(curve->x, curve->count, x);
+  const double f = (x - curve->x[i]) / (curve->x[i + 1] - curve->x[i]);
+  return (1 - f) * curve->y[i] + f * curve->y[i + 1];
+}
+
+void sb_study_spread(double spread[SB_FIGURE_COUNT], const SbStudy *study, const SbModel *model) {
+  static const char *const panels[CONTACT] = {"load_N", "pressure_peak_Pa", "contact_width_m"};
+  for (size_t i = 0; study->kind == SB_STUDY_MODELS && i < CONTACT && i < study->panel_count; i++) {
+    double low = INFINITY, high = -INFINITY;
+    for (size_t k = 0; k < study->panel[i].series_count; k++) {
+      const SbStudySeries *curve = &study->panel[i].series[k];
+      if (curve->style != SB_STUDY_DOTS) { // what is printed was not computed
+        const double y = ordinate(curve, model->canister_pressure);
+        low = fmin(low, y);
+        high = fmax(high, y);
+      }
+    }
+    char path[64];
+    snprintf(path, sizeof path, "seals.outer.%s", panels[i]);
+    double *of = &spread[sb_figure_find(path)];
+    *of = fmax(*of, high - low);
   }
 }
 
