@@ -291,8 +291,9 @@ static SbSceneStatus compile(SbScene *scene, SbModel **model) {
   return fail(scene, SB_SCENE_ERROR_INPUT, first->key != NULL ? first->key : "", "%s", line);
 }
 
-// The run of the scene itself, `share` of the whole computation.
-static SbSceneStatus compute(SbScene *scene, double share) {
+// The run of the scene itself, `share` of the whole computation, for a caller with this locale.
+static SbSceneStatus compute(SbScene *scene, locale_t caller, double share) {
+  scene->caller = caller;
   sb_answers_clear(&scene->answers);
   g_autoptr(SbModel) model = NULL;
   SbPlan plan;
@@ -318,15 +319,13 @@ static SbSceneStatus compute(SbScene *scene, double share) {
 
 SbSceneStatus sb_scene_run(SbScene *scene) {
   SB_IN_OWN_LOCALE;
-  scene->caller = before_;
-  return compute(scene, 1);
+  return compute(scene, before_, 1);
 }
 
 SbSceneStatus sb_scene_judge(SbScene *scene) {
   SB_IN_OWN_LOCALE;
-  scene->caller = before_;
   const double own = 1 / (1 + (double)sb_document_case_count(scene->document));
-  const SbSceneStatus run = compute(scene, own);
+  const SbSceneStatus run = compute(scene, before_, own);
   if (scene->run == NULL || run == SB_SCENE_ERROR_CANCELLED) {
     return run;
   }

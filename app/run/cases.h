@@ -21,9 +21,8 @@ void sb_cases_own(SbVerdict out[SB_VERDICT_COUNT], const SbRun *run, const SbStu
 
 // Computes all cases of `document` one after the other, each with its own values and models, but
 // only the figures: no profiles, interior fields, studies or later actuations of a life. Writes to
-// out[kind] (kind: SbVerdictKind) the worst answer of the scene itself, which has `own`, and of all
-// cases. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and
-// may cancel.
+// out[kind] (kind: SbVerdictKind) the worst answer of the scene itself, whose verdict is `own`, and
+// of all cases. `hooks` (NULL: none) receives the progress over all cases, 0 to 1, and may cancel.
 //
 // Returns SB_OK, or the status of the last case that did not end with SB_OK: SB_ERROR_INPUT if its
 // values are inconsistent, SB_ERROR_CANCELLED, or the status of sb_run_execute(). `out` is complete

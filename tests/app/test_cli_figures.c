@@ -48,7 +48,7 @@ static void test_reasons(void) {
       {{"--set=surface.gt_product=0.17", "--quiet", "--quiet", "--quiet", "--quiet"},
        0,
        "cycle.leakage_net_all_actuations_m3",
-       "does not return"},
+       "the stem is stuck at"},
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     CliResult run =
@@ -66,7 +66,7 @@ static void test_reasons(void) {
   }
   CliResult table = CLI("run", cli.scene, "--all", "--set=surface.gt_product=0.17");
   g_assert_nonnull(
-      strstr(table.out, "Leakage per cycle                    - (the stem does not return"));
+      strstr(table.out, "Leakage per cycle                    - (the stem is stuck at"));
   cli_clear(&table);
 }
 

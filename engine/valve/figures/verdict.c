@@ -265,9 +265,10 @@ void sb_verdict_judge(SbVerdict verdict[SB_VERDICT_COUNT], const SbSummary *summ
     verdict[SB_VERDICT_DOSES] = (SbVerdict){
         SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
         "the chamber retains its dose: no port opens it to the outside for long enough"};
-  } else if (summary->dose_mass == 0) {
+  } else if (summary->dose_mass == 0 ||
+             (!(model->canister_pressure > 0) && summary->outcome == SB_OUTCOME_STUCK)) {
     verdict[SB_VERDICT_DOSES] =
-        (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), 0, NAN,
+        (SbVerdict){SB_ANSWER_NO, sb_figure_find("cycle.dose_mass_kg"), summary->dose_mass, NAN,
                     "the canister's pressure is not above ambient: nothing is delivered"};
   }
   for (size_t i = 0; i < model->limits.count; i++) {
