@@ -62,7 +62,7 @@ static bool by_mesh(SbSolid *solid) {
   gmshFree(elements);
   gmshFree(nodes);
   return sb_mesh_orient(&n_uv, NULL, triangles, corners / 3, vertices, NULL) == SB_OK &&
-         sb_solid_mesh(solid, vertices, count, triangles, corners / 3, 1, NULL) == SB_OK;
+         sb_solid_integrate(solid, vertices, count, triangles, corners / 3, 1, NULL) == SB_OK;
 }
 
 // Extrapolates the numbers of a body from its meshes; false if they do not settle.

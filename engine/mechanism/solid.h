@@ -95,3 +95,9 @@ SbStatus sb_mesh_orient(size_t *turned, size_t *body, unsigned *triangles, size_
 SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
                        const unsigned *triangles, size_t triangle_count, double density,
                        SbReport *report);
+
+// As sb_solid_mesh(), but no triangles are tested for intersections: for a mesh whose vertices are
+// on a surface that does not cross itself, where small triangles may overlap.
+SbStatus sb_solid_integrate(SbSolid *solid, const double *vertices, size_t vertex_count,
+                            const unsigned *triangles, size_t triangle_count, double density,
+                            SbReport *report);

@@ -406,9 +406,9 @@ static void sum_moments(Moments *out, const double *vertices, const unsigned *tr
   }
 }
 
-SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
-                       const unsigned *triangles, size_t triangle_count, double density,
-                       SbReport *report) {
+SbStatus sb_solid_integrate(SbSolid *solid, const double *vertices, size_t vertex_count,
+                            const unsigned *triangles, size_t triangle_count, double density,
+                            SbReport *report) {
   if (!(density > 0.0) || !isfinite(density)) {
     return sb_fail(report, SB_ERROR_RANGE, "the density must be above 0, not %g kg/m3", density);
   }
@@ -430,10 +430,6 @@ SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_cou
     return sb_fail(report, SB_ERROR_INPUT,
                    "the mesh has the wrong handedness: it is inside out (volume %.3g m3)",
                    six / 6.0);
-  }
-  status = check_crossing(vertices, triangles, triangle_count, report);
-  if (status != SB_OK) {
-    return status;
   }
   *solid = (SbSolid){.volume = six / 6.0, .mass = density * six / 6.0};
   double trace = 0.0, about[3][3];
@@ -497,4 +493,19 @@ void sb_solid_axis(double axis[3], const double inertia[3][3]) {
     axis[k] = k == largest ? axis[k] : -axis[k];
   }
   axis[largest] = fabs(axis[largest]);
+}
+
+SbStatus sb_solid_mesh(SbSolid *solid, const double *vertices, size_t vertex_count,
+                       const unsigned *triangles, size_t triangle_count, double density,
+                       SbReport *report) {
+  SbSolid found;
+  SbStatus status = sb_solid_integrate(&found, vertices, vertex_count, triangles, triangle_count,
+                                       density, report);
+  if (status == SB_OK) {
+    status = check_crossing(vertices, triangles, triangle_count, report);
+  }
+  if (status == SB_OK) {
+    *solid = found;
+  }
+  return status;
 }

@@ -2,6 +2,7 @@
 #include "ui/window/design_page_private.h"
 
 #include "app/base/translation.h"
+#include "app/export/design_text.h"
 #include "ui/views/style.h"
 #include "ui/views/toolbar.h"
 #include "ui/window/design_ranges.h"
