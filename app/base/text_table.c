@@ -67,8 +67,8 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
                                            : SB_TEXT_TABLE_LATIN1;
 }
 
-// Finds the encoding, unless it is known, and the ends of lines. Returns the name of a format that
-// is no text; NULL: none.
+// Finds the encoding, unless it is known, and the ends of lines. Returns NULL; of a file that is
+// not text (a workbook, HTML), the name of its format.
 static const char *find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
   static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
                                            {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},

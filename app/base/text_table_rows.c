@@ -67,7 +67,8 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
-// Counts a line that is left out; the first one that is no damaged row is stored.
+// Counts a line that is left out, and stores the first one, preferably one that is not a damaged
+// row.
 static void leave_line(SbTextTableRows *out, int number, const GString *text, bool damaged) {
   *(damaged ? &out->damaged : &out->skipped) += 1;
   if (out->left_text == NULL || (!damaged && out->skipped == 1)) {

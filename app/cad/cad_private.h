@@ -55,7 +55,7 @@ void sb_cad_point(const SbCadPiece *piece, double part, double at[2]);
 // from the line or circle [m], never negative, to *off.
 double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
 
-// Comparing each end with each: a layer of more pieces is no seal's part.
+// Largest number of pieces of a layer: each end is compared with each piece.
 enum { SB_CAD_PIECES_MAX = 5000 };
 
 // An outline, as a chain of pieces.

@@ -92,7 +92,7 @@ char *sb_design_fails_text(const SbDesignPlace *at) {
     return g_strdup("–");
   }
   const double count = at->fails * (double)at->samples;
-  return count == 0          ? g_strdup_printf(_("none of %zu"), at->samples)
-         : at->fails > 0.995 ? g_strdup(_("all"))
-                             : g_strdup_printf("%.1f %%", 100 * at->fails);
+  return count == 0       ? g_strdup_printf(_("none of %zu"), at->samples)
+         : at->fails >= 1 ? g_strdup(_("all"))
+                          : g_strdup_printf("%.*f %%", at->fails > 0.99 ? 2 : 1, 100 * at->fails);
 }

@@ -14,8 +14,8 @@ typedef struct {
   const char *name;
 } SbCaseVerdict;
 
-// Writes the verdict of the finished run of a scene, to which the models that its `studies` compare
-// are known as well (sb_study_spread()).
+// Writes the verdict of the finished run of a scene. A margin below the difference between the
+// models that its studies[count] compare is uncertain (sb_study_spread()).
 void sb_cases_own(SbVerdict out[SB_VERDICT_COUNT], const SbRun *run, const SbStudy *studies,
                   size_t count);
 

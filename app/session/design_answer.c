@@ -55,6 +55,15 @@ bool sb_design_on_map(const SbDesignAnswer *answer, int place) {
          of->axis[1] >= answer->map.low[1] && of->axis[1] <= answer->map.high[1];
 }
 
+bool sb_design_violates(const SbDesignAnswer *answer, int place, size_t limit) {
+  const SbLimit *of = &answer->study->limits.item[limit];
+  const int column = sb_design_answer_figure(answer, of->figure);
+  const SbDesignPlace *at = &answer->place[place];
+  const double value = column >= 0 && at->known ? at->figure[column] : NAN;
+  const bool best = place == SB_DESIGN_BEST && answer->found.feasible;
+  return !best && (value < of->low || value > of->high);
+}
+
 double sb_design_sigmas(const SbDesignAnswer *answer, int place, size_t limit) {
   const SbLimit *of = &answer->study->limits.item[limit];
   const int column = sb_design_answer_figure(answer, of->figure);

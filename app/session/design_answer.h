@@ -74,6 +74,10 @@ double sb_design_map_at(const SbDesignMap *map, size_t figure, double across, do
 // inside of its ranges, and all other parameters have the scene's values.
 bool sb_design_on_map(const SbDesignAnswer *answer, int place);
 
+// Returns whether a design violates limit number `limit`; false if its figure is not known. A best
+// design that is feasible violates none: it is beyond a limit by rounding (SbDesign.breach).
+bool sb_design_violates(const SbDesignAnswer *answer, int place, size_t limit);
+
 // Returns the margin to limit number `limit` (of study->limits) divided by the standard deviation
 // of its figure (from the design's variance); negative if the limit is violated. NaN: not known.
 double sb_design_sigmas(const SbDesignAnswer *answer, int place, size_t limit);

@@ -28,7 +28,7 @@ static void forget_calibration(SbBenchCalibrate *calibrate) {
     sb_calibration_release(&calibrate->found);
     g_clear_pointer(&calibrate->study, sb_study_file_free);
   }
-  g_clear_pointer(&calibrate->said, g_free);
+  g_clear_pointer(&calibrate->sentence, g_free);
 }
 
 void sb_bench_calibrate_follow(SbBench *bench) {
@@ -56,8 +56,8 @@ static void on_calibrated(void *user) {
           : !found.converged ? g_strdup(_("The fit did not converge."))
                              : NULL;
   }
-  g_free(calibrate->said);
-  calibrate->said = why;
+  g_free(calibrate->sentence);
+  calibrate->sentence = why;
   g_clear_pointer(&calibrate->job, sb_calibrate_job_free);
   if (bench->page == SB_PAGE_CALIBRATE) { // which has the result
     g_clear_pointer(&bench->message, g_free);
@@ -81,8 +81,8 @@ static void start_calibration(SbBench *bench) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   SbStudyFile *study = sb_calibrate_ask_study(&calibrate->ask, document, issues);
   if (study == NULL) {
-    g_free(calibrate->said);
-    calibrate->said = sb_issue_line(issues->pdata[0]);
+    g_free(calibrate->sentence);
+    calibrate->sentence = sb_issue_line(issues->pdata[0]);
     return;
   }
   g_free(calibrate->hash);
@@ -235,7 +235,7 @@ static void draw_calibrate_foot(SbBench *bench, SbCellRect rect) {
                            sb_worker_progress(calibrate->job));
     return;
   }
-  int y = draw_line(bench, rect, rect.y, calibrate->said, SB_ROLE_WARN);
+  int y = draw_line(bench, rect, rect.y, calibrate->sentence, SB_ROLE_WARN);
   if (calibrate->study == NULL) {
     (void)draw_line(bench, rect, y,
                     _("Enter fits the marked parameters to the measured loop, c cancels, a uses "

@@ -24,7 +24,7 @@ enum {
   WITH_MAP = 116,    // columns of the page from which on this is so
   VALUE_ROOM = 11,   // columns of a value,
   LIMIT_ROOM = 14,   // of a limit,
-  MARK_ROOM = 9,     // of what marks a row,
+  MARK_ROOM = 9,     // of a mark,
   MARGIN_ROOM = 11,  // and of a margin
   DESIGN_DIGITS = 6, // of a parameter, as `sealbench design` prints it
 };
@@ -34,7 +34,7 @@ enum {
 static void forget_design(SbBenchDesign *design) {
   g_clear_pointer(&design->job, sb_design_job_free);
   g_clear_pointer(&design->answer, sb_design_answer_free);
-  g_clear_pointer(&design->said, g_free);
+  g_clear_pointer(&design->sentence, g_free);
 }
 
 void sb_bench_design_follow(SbBench *bench) {
@@ -59,12 +59,12 @@ static void on_design(void *data) {
   SbDesignAnswer *answer = sb_design_job_take(design->job, &why);
   forget_design(design);
   design->answer = answer;
-  design->said = sb_design_end_text(answer, why);
+  design->sentence = sb_design_end_text(answer, why);
   if (bench->page == SB_PAGE_DESIGN) { // which has the sentence
     g_clear_pointer(&bench->message, g_free);
     sb_bench_changed(bench);
   } else {
-    sb_bench_status(bench, why != NULL && *why != '\0', "%s", design->said);
+    sb_bench_status(bench, why != NULL && *why != '\0', "%s", design->sentence);
   }
 }
 
@@ -361,7 +361,7 @@ static void draw_limit(SbBench *bench, const SbDesignAnswer *answer, int figure,
     return;
   }
   const SbDesign *found = &answer->found;
-  const bool met = found->feasible || (best >= limit->low && best <= limit->high);
+  const bool met = !sb_design_violates(answer, SB_DESIGN_BEST, (size_t)at);
   const bool active = found->limit_active[2 * at] || found->limit_active[2 * at + 1];
   g_autofree char *mark =
       g_strdup_printf("%s%s%s", met ? "✓" : "✗", active ? " " : "", active ? _("active") : "");
@@ -442,16 +442,16 @@ static void draw_design_foot(SbBench *bench, const SbDesignAnswer *answer, SbCel
   g_autofree char *now = sb_document_sha256(sb_session_document(bench->session));
   const bool former = g_strcmp0(now, design->hash) != 0;
   g_autofree char *marks = sb_design_marks_text(answer);
-  const int said = former || design->changed; // number of its line
-  const char *state = former ? _("of earlier values") : said ? _("of an earlier request") : "";
-  g_autofree char *all = g_strdup_printf("%s%s%s\n%s", state, said ? "\n" : "", design->said,
+  const int first = former || design->changed; // number of its line
+  const char *state = former ? _("of earlier values") : first ? _("of an earlier request") : "";
+  g_autofree char *all = g_strdup_printf("%s%s%s\n%s", state, first ? "\n" : "", design->sentence,
                                          marks != NULL ? marks : "");
   g_auto(GStrv) line = g_strsplit(all, "\n", 0);
   int y = rect.y;
   for (int i = 0; line[i] != NULL && y < rect.y + rect.height; i++) {
     y += sb_cells_paragraph(&bench->cells,
                             (SbCellRect){rect.x, y, rect.width, rect.y + rect.height - y}, line[i],
-                            sb_bench_pen(bench, i != said ? SB_ROLE_WARN : SB_ROLE_INK, 0));
+                            sb_bench_pen(bench, i != first ? SB_ROLE_WARN : SB_ROLE_INK, 0));
   }
 }
 

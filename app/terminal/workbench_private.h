@@ -79,7 +79,7 @@ typedef struct {
   SbDesignAnswer *answer; // last results; NULL: none
   SbStore *store;         // store of evaluations; NULL: not open
   char *hash;             // sb_document_sha256() of the values of the last request
-  char *said;             // how the last search ended; NULL: no search yet
+  char *sentence;         // how the last search ended; NULL: no search yet
   bool changed;           // the request was changed since
 } SbBenchDesign;
 
@@ -92,7 +92,7 @@ typedef struct {
   SbCalibration found;
   SbData *fitted; // the data that `found` and `job` belong to; NULL: none
   char *hash;     // sb_document_sha256() of the values of the last request
-  char *said;     // why there is no result, or only a part of it; NULL: nothing
+  char *sentence; // why there is no result, or only a part of it; NULL: nothing
 } SbBenchCalibrate;
 
 // The workbench. Objects are owned unless stated otherwise.

@@ -242,16 +242,15 @@ static void set_end(GtkWidget *entry, int figure, double value) {
   }
 }
 
-static void set_value(GtkWidget *label, const SbLimit *limit, double value, double error) {
+static void set_value(GtkWidget *label, int figure, double value, double error, bool violates) {
   // The unit of the figure has a column of its own.
   SbFormatted parts;
-  sb_figure_parts(&parts, limit->figure, value, error);
-  const bool own = strcmp(parts.unit, sb_figure(limit->figure)->shown) == 0;
-  g_autofree char *text =
-      own ? g_strdup(parts.number) : sb_design_value_text(limit->figure, value, error);
+  sb_figure_parts(&parts, figure, value, error);
+  const bool own = strcmp(parts.unit, sb_figure(figure)->shown) == 0;
+  g_autofree char *text = own ? g_strdup(parts.number) : sb_design_value_text(figure, value, error);
   gtk_label_set_text(GTK_LABEL(label), text);
   GtkStyleContext *style = gtk_widget_get_style_context(label);
-  if (value < limit->low || value > limit->high) {
+  if (violates) {
     gtk_style_context_add_class(style, "sb-error");
   } else {
     gtk_style_context_remove_class(style, "sb-error");
@@ -262,6 +261,7 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
                      gboolean chosen) {
   const int column = answer != NULL ? sb_design_answer_figure(answer, limit->figure) : -1;
   double value[SB_DESIGN_PLACES] = {NAN, NAN}, error[SB_DESIGN_PLACES] = {NAN, NAN};
+  bool violates[SB_DESIGN_PLACES] = {false, false};
   row->margin = NAN;
   row->active = FALSE;
   // The answer may be of other limits for a moment.
@@ -272,6 +272,7 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
     if (answer->place[place].known) {
       value[place] = answer->place[place].figure[column];
       error[place] = answer->place[place].error[column];
+      violates[place] = sb_design_violates(answer, place, index);
       row->margin = sb_design_sigmas(answer, place, index);
       row->active = place == SB_DESIGN_BEST && (answer->found.limit_active[2 * index] ||
                                                 answer->found.limit_active[2 * index + 1]);
@@ -279,8 +280,10 @@ static void show_row(Row *row, const SbLimit *limit, size_t index, const SbDesig
   }
   set_end(row->end[0], limit->figure, limit->low);
   set_end(row->end[1], limit->figure, limit->high);
-  set_value(row->present, limit, value[SB_DESIGN_PRESENT], error[SB_DESIGN_PRESENT]);
-  set_value(row->best, limit, value[SB_DESIGN_BEST], error[SB_DESIGN_BEST]);
+  set_value(row->present, limit->figure, value[SB_DESIGN_PRESENT], error[SB_DESIGN_PRESENT],
+            violates[SB_DESIGN_PRESENT]);
+  set_value(row->best, limit->figure, value[SB_DESIGN_BEST], error[SB_DESIGN_BEST],
+            violates[SB_DESIGN_BEST]);
   g_autofree char *sigmas = isnan(row->margin)         ? g_strdup("–")
                             : row->margin > BAR_SIGMAS ? g_strdup_printf("> %d", BAR_SIGMAS)
                                                        : g_strdup_printf("%.1f", row->margin);

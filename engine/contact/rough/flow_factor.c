@@ -7,6 +7,8 @@
 
 #include "engine/numeric/root.h"
 
+#include <gsl/gsl_integration.h>
+
 #include <math.h>
 #include <stdlib.h>
 
@@ -19,13 +21,25 @@ static const double LEAST = 1e-6;
 // Between these separations, over sigma, phi_p changes into that of the undeformed surface.
 static const double DEFORMED = 1.4, UNDEFORMED = 2.2;
 
-// Nodes and weights of Gauss and Hermite for a standard normal variable, the positive half.
-static const double node[SCATTER / 2] = {
-    0.38676060450055738, 1.1638291005549648, 1.9519803457163334, 2.760245047630703,
-    3.600873624171548,   4.4929553025200121, 5.4722257059493433, 6.6308781983931295};
-static const double share[SCATTER / 2] = {
-    0.28656852123801241,    0.15833837275094925,    0.04728475235401395,   0.0072669376011847472,
-    0.00052598492657390979, 1.5300032162487286e-05, 1.309473216286842e-07, 1.4978147231618314e-10};
+// Deviations of the roughness beyond each wave number, over sigma, and the rule of Gauss and
+// Hermite for the mean over it: nodes of a standard normal variable, and weights of the sum 1.
+typedef struct {
+  double height[SHEETS], node[SCATTER], weight[SCATTER];
+} Scatter;
+
+static bool set_rule(Scatter *scatter) {
+  gsl_integration_fixed_workspace *rule =
+      gsl_integration_fixed_alloc(gsl_integration_fixed_hermite, SCATTER, 0, 0.5, 0, 0);
+  if (rule == NULL) {
+    return false;
+  }
+  for (int i = 0; i < SCATTER; i++) {
+    scatter->node[i] = gsl_integration_fixed_nodes(rule)[i];
+    scatter->weight[i] = gsl_integration_fixed_weights(rule)[i] / sqrt(2 * M_PI);
+  }
+  gsl_integration_fixed_free(rule);
+  return true;
+}
 
 // Gaps with their fractions of the area; the rest is in contact.
 typedef struct {
@@ -95,7 +109,7 @@ typedef struct {
 } Zoom;
 
 // phi_p of the deformed surface.
-static double deformed(Gaps *g, const Zoom *zoom, const double *scatter, double threshold) {
+static double deformed(Gaps *g, const Zoom *zoom, const Scatter *scatter, double threshold) {
   double mean = 0;
   g->count = 0;
   g->contact = zoom->area[SHEETS];
@@ -110,10 +124,9 @@ static double deformed(Gaps *g, const Zoom *zoom, const double *scatter, double 
                                 (zoom->gap[k + 1] - zoom->gap[k]) * contact / lost,
                             0);
     for (int i = 0; i < SCATTER; i++) {
-      const double x = i % 2 == 0 ? node[i / 2] : -node[i / 2];
-      const double gap = fabs(u_1 + scatter[k] * x);
+      const double gap = fabs(u_1 + scatter->height[k] * scatter->node[i]);
       g->cube[g->count] = gap * gap * gap;
-      g->area[g->count] = lost * share[i / 2];
+      g->area[g->count] = lost * scatter->weight[i];
       mean += gap * g->area[g->count++];
     }
   }
@@ -127,23 +140,25 @@ static double deformed(Gaps *g, const Zoom *zoom, const double *scatter, double 
 typedef struct {
   SbPerssonGap gap;
   Gaps gaps;
+  Scatter scatter;
   Zoom zoom[SB_FLOW_PRESSURES];
 } Work;
 
 SbStatus sb_flow_factors(double *phi, const double *log_p, int count, const SbSpectrum *s,
                          double threshold, SbReport *report) {
   Work *work = malloc(sizeof *work);
-  if (work == NULL) {
+  if (work == NULL || !set_rule(&work->scatter)) {
+    free(work);
     return sb_fail(report, SB_ERROR_MEMORY, "no memory for the flow factors");
   }
-  double scatter[SHEETS], before = s->q0;
+  double before = s->q0;
   sb_persson_gap_init(&work->gap, s, s->q0);
   for (int k = 0; k <= SHEETS; k++) {
     const double part = k == 0 ? 0 : pow(LEAST, 1 - (double)(k - 1) / (SHEETS - 1));
     const double q = sb_spectrum_wave(s, part);
     if (k > 0) {
       sb_persson_gap_move(&work->gap, s, q);
-      scatter[k - 1] = sb_spectrum_height_beyond(s, sqrt(before * q)) / s->sigma;
+      work->scatter.height[k - 1] = sb_spectrum_height_beyond(s, sqrt(before * q)) / s->sigma;
       before = q;
     }
     for (int i = 0; i < count; i++) {
@@ -160,7 +175,7 @@ SbStatus sb_flow_factors(double *phi, const double *log_p, int count, const SbSp
     const double u = work->zoom[i].gap[0];
     const double f = fmin(fmax((u - DEFORMED) / (UNDEFORMED - DEFORMED), 0), 1);
     const double w = f * f * (3 - 2 * f);
-    phi[i] = w < 1 ? (1 - w) * deformed(&work->gaps, &work->zoom[i], scatter, threshold) : 0;
+    phi[i] = w < 1 ? (1 - w) * deformed(&work->gaps, &work->zoom[i], &work->scatter, threshold) : 0;
     phi[i] += w > 0 ? w * undeformed(&work->gaps, u) : 0;
   }
   free(work);

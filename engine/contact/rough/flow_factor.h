@@ -21,9 +21,10 @@
 // Validity: direct computations on small cells (4 roll-off waves) confirm u within 7 % up to 0.75
 // of the closing pressure; phi_p is up to 1.8 times too large below 0.22 of it, and more above,
 // where these cells scatter as much. Friction hardly depends on this: a phi_p five times smaller
-// changes it by 5 %. The average over x takes the 16 nodes of Gauss and Hermite, as the reference
-// figures do; with many nodes phi_p is smaller by 1 % to 0.3 of the closing pressure, 28 % at 0.5
-// and 0.7.
+// changes it by 5 %. The average over x takes 16 nodes of Gauss and Hermite, as the figures of
+// reference do (docs/physics.md), and this is part of the law: with many nodes phi_p differs by up
+// to 4 % below 0.4 of the closing pressure, and is 28 to 40 % smaller from 0.5 to 0.7 (computed
+// once by a separate program).
 #pragma once
 
 #include "engine/contact/rough/persson.h"

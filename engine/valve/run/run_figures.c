@@ -324,9 +324,7 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
   const double circumference = model->bore_circumference;
   // Equal films in both directions leave rounding only.
   const double net = bore->out - bore->back;
-  summary->leakage_per_cycle = !summary->closes                 ? NAN
-                               : fabs(net) <= 1e-12 * bore->out ? 0
-                                                                : circumference * net;
+  summary->leakage_per_cycle = fabs(net) <= 1e-12 * bore->out ? 0 : circumference * net;
   if (summary->closes && fabs(net) < summary->error_film * bore->out) {
     sb_warn(&summary->warnings, "leakage-uncertain", sb_input(SB_P_OUTPUT_TOLERANCE),
             "the leakage of a cycle, %.2g nl, is less than the error of the transport in each "

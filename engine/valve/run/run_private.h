@@ -321,7 +321,8 @@ void sb_bore_start(SbBore *bore, double s);
 // the thickness `layer`.
 void sb_bore_move(SbBore *bore, double from, double to, double layer);
 
-// Sets leakage_per_cycle from the volumes of `bore`; NaN unless summary->closes (run_figures.c).
+// Sets leakage_per_cycle from the volumes of `bore`; sb_run_leave_out() removes it later if there
+// is no full cycle (run_figures.c).
 void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore);
 
 // Sets leakages and dose to NaN, with reasons, that belong to parts of the cycle that did not

@@ -64,7 +64,9 @@ static void leak(SbRecorder *r, const SbRecordedPlace *at, double pressure, bool
   }
   r->moved = at->x != last->x ? at->time : r->moved; // a dwell at the end is not sliding
   // Between instants that skip cycles of stick-slip, or whose speeds are those of short slips, the
-  // stem moves evenly.
+  // stem moves evenly: the cubic is monotone if both speeds are 0 to 3 times the mean (F.N. Fritsch
+  // & R.E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238); an even acceleration may exceed that by
+  // rounding.
   const double span = at->time - last->time, mean = span > 0 ? (at->x - last->x) / span : 0;
   const double first = last->speed / mean, second = at->speed / mean;
   const bool smooth = r->motion.counters.repeated == r->repeated && first >= 0 && first <= 3.01 &&
