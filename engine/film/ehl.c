@@ -202,7 +202,7 @@ static void fill(SbFilm *out, const SbFilmProblem *problem, const SbFilmScale *s
               100 * out->real_area_share);
     }
     if (problem->speed != 0 && problem->surface != SB_ROUGH_NONE && out->film_ratio < 0.5 &&
-        out->asperity_share < 0.99) {
+        out->asperity_share < 0.99 && !(problem->percolation_threshold > 0)) {
       sb_warn(&out->warnings, "film-flow-factors", SB_FILM_IN_SIGMA,
               "the mean gap is %.2g of the roughness: the flow between touching asperities is "
               "computed without flow factors or percolation",
