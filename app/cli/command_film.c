@@ -1,14 +1,13 @@
 // sealbench film: the film of one sliding line contact.
 #include "app/base/reader.h"
 #include "app/cli/cli.h"
+#include "app/cli/film_history.h"
 #include "app/cli/plots.h"
 #include "app/cli/timing.h"
-#include "app/document/series.h"
 #include "app/export/results.h"
 
 #include "engine/contact/rough/rough_law.h"
 #include "engine/film/laws.h"
-#include "engine/film/transient.h"
 
 #include <math.h>
 #include <stddef.h>
@@ -81,6 +80,23 @@ static bool read_dry_pressure(const char *path, GArray *x, GArray *p) {
   bool good = issues->len == 0;
   sb_cli_issues(issues);
   return good;
+}
+
+// Reads the dry pressure of the model inverse, which alone has one, into x and p (borrowed by
+// `problem`) from `path` (NULL: none is given). False with a message.
+static bool choose_dry_pressure(SbFilmProblem *problem, const char *path, GArray *x, GArray *p) {
+  if (sb_film_kind(problem->model)->from_dry != (path != NULL)) {
+    sb_cli_fail(path != NULL ? "--dry-pressure: only the model inverse uses it"
+                             : "--dry-pressure is missing: the model inverse needs it");
+    return false;
+  }
+  if (path != NULL && !read_dry_pressure(path, x, p)) {
+    return false;
+  }
+  problem->dry_x = (const double *)(void *)x->data;
+  problem->dry_pressure = (const double *)(void *)p->data;
+  problem->dry_count = x->len;
+  return true;
 }
 
 // The same contact by every closed form and by the solver, so that their differences are seen at
@@ -219,13 +235,13 @@ static bool in_range(const char *option, const Quantity *q, double value) {
   return false;
 }
 
-// Reads every quantity given; false with a message. A speed already there needs no option.
-static bool read_quantities(SbFilmProblem *problem, char *const *texts) {
+// Reads every quantity given; false with a message. `moves`: the speed is that of a history.
+static bool read_quantities(SbFilmProblem *problem, char *const *texts, bool moves) {
   for (int i = 0; i < QUANTITIES; i++) {
     const Quantity *q = &quantities[i];
     double value = 0;
     g_autofree char *option = g_strconcat("--", q->name, NULL);
-    const bool known = q->offset == offsetof(SbFilmProblem, speed) && problem->speed != 0;
+    const bool known = q->offset == offsetof(SbFilmProblem, speed) && moves;
     bool good = sb_cli_quantity(&value, option, texts[i], q->required && !known, q->si, q->shown) &&
                 (texts[i] == NULL || in_range(option, q, value));
     if (!good) {
@@ -296,103 +312,77 @@ static double given_or(const SbFilmProblem *problem, size_t offset, char *const 
   return sb_param(id)->fallback;
 }
 
-// Reads the series of speeds, the first of which is the problem's; false with a message.
-static bool read_history(SbModelSeries *series, SbFilmProblem *problem, const char *path,
-                         const char *speed) {
-  if (speed != NULL) {
-    sb_cli_fail("--speed: the speeds are those of --history");
-    return false;
-  }
-  g_autoptr(GPtrArray) issues = sb_issues_new();
-  bool good = sb_series_read(series, SB_SERIES_SPEED, path, issues);
-  if (good && series->value[0] == 0) {
-    sb_issues_add(issues, path, 0, "speed", NULL, "begins at rest, where no steady film is");
-    good = false;
-  }
-  sb_cli_issues(issues);
-  problem->speed = good ? series->value[0] : 0;
-  return good;
-}
+// How the fluid of a contact whose channels are closed is taken.
+typedef enum { TRAPPED, DRAINED, BOTH } Closure;
 
-// The film at every row of the series; rows behind a failure stay unknown.
-static SbStatus follow(SbResultsHistory *out, const SbFilmProblem *problem,
-                       const SbModelSeries *series, SbReport *report) {
-  SbFilmTransientProblem transient = {
-      .film = *problem, .inlet_film = {problem->inlet_film, problem->inlet_film}, .resolve = true};
-  transient.film.inlet_film = 0;
-  for (size_t i = 0; i < series->count; i++) {
-    transient.speed_scale = fmax(transient.speed_scale, fabs(series->value[i]));
-    out->film_min[i] = out->film_central[i] = out->error_min[i] = out->error_central[i] = NAN;
-  }
-  SbFilmTransient *solver = NULL;
-  SbStatus status = sb_film_transient_create(&solver, &transient, report);
-  for (size_t i = 0; i < series->count && status == SB_OK; i++) {
-    if (i > 0) {
-      status = sb_film_transient_step(solver, series->time[i] - series->time[i - 1],
-                                      series->value[i], report);
-    }
-    if (status == SB_OK) {
-      const SbFilmTransientResult film = sb_film_transient_result(solver);
-      out->film_min[i] = film.film_min;
-      out->film_central[i] = film.film_central;
-      out->error_min[i] = film.error_film_min;
-      out->error_central[i] = film.error_film_central;
+static const char *const closures[] = {"trapped", "drained", "both"};
+
+// What one call computes beside the film.
+typedef struct {
+  const SbModelSeries *series; // speeds of a history; NULL: none
+  double content;              // of the contact [m]; NaN: none is given
+  Closure closure;
+  const char *target; // of the JSON; NULL: a table
+} Extra;
+
+static bool choose_closure(Closure *out, const char *name, const SbFilmProblem *problem) {
+  for (size_t i = 0; i < G_N_ELEMENTS(closures) && name != NULL; i++) {
+    if (strcmp(name, closures[i]) == 0) {
+      *out = (Closure)i;
+      if (!(problem->percolation_threshold > 0)) {
+        sb_cli_fail("--sealed: needs --percolation-threshold");
+        return false;
+      }
+      return true;
     }
   }
-  sb_film_transient_destroy(solver);
-  return status;
-}
-
-static void print_history(const SbResultsHistory *h) {
-  puts("Film by time                      minimum    central  error estimates");
-  for (size_t i = 0; i < h->count; i++) {
-    printf("  %12.6g s           %9.4g nm %9.4g nm  %.2g, %.2g\n", h->time[i], h->film_min[i] * 1e9,
-           h->film_central[i] * 1e9, h->error_min[i], h->error_central[i]);
+  if (name != NULL) {
+    sb_cli_unknown("--sealed: there is no closure", name, "drained|trapped|both", NULL);
   }
+  return name == NULL;
 }
 
-// Solves, and writes or prints what came out, with the history through `series` unless that is
-// NULL; an exit code.
-static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
-                          const SbModelSeries *series, const char *target,
+// Solves, and writes or prints what came out; an exit code.
+static int solve_and_show(const SbFilmProblem *problem, char *const *texts, const Extra *extra,
                           const SbCliPlots *plots) {
-  const bool plot = target == NULL && sb_cli_plots(plots);
-  g_autofree SbFilm *film = g_new0(SbFilm, 1);
+  const bool plot = extra->target == NULL && sb_cli_plots(plots);
+  g_autofree SbFilm *film = g_new0(SbFilm, 1), *drained = g_new0(SbFilm, 1);
   SbFilmProblem lent = *problem;
-  lent.profile = target != NULL || plot ? g_new(SbFilmProfile, 1) : NULL;
+  lent.profile = extra->target != NULL || plot ? g_new(SbFilmProfile, 1) : NULL;
+  lent.speed = extra->closure == DRAINED ? 0 : problem->speed;
   Solve job = {film, &lent, {0}};
   sb_cli_catch_interrupts();
   double wall_s = 0;
   SbStatus status = sb_timing_median(&wall_s, solve_film, &job);
   film->solver.wall_s = wall_s;
+  SbResultsFilmExtra more = {0};
+  g_autofree double *values = NULL;
+  SbResultsHistory history = {0};
+  if (status == SB_OK && extra->closure == BOTH) {
+    SbFilmProblem dry = *problem;
+    dry.speed = 0;
+    status = sb_film_solve(drained, &dry, NULL, &job.report);
+    more.drained = drained;
+  }
+  if (status == SB_OK && extra->series != NULL) {
+    values = g_new(double, SB_RESULTS_HISTORY_COLUMNS * extra->series->count);
+    history = sb_results_history(extra->series->count, extra->series->time, values);
+    status = sb_film_history_follow(&history, problem, extra->series, &job.report);
+    more.history = &history;
+  }
+  if (status == SB_OK && !isnan(extra->content)) {
+    status = sb_film_history_content(&more.content, problem, extra->content, &job.report);
+  }
   job.report.input = 0; // the catalogue's key and range are a seal's, not this command's
   int code = sb_cli_status(status, &job.report);
-  const size_t rows = series != NULL ? series->count : 0;
-  g_autofree double *values = g_new(double, 4 * rows + 1);
-  SbResultsHistory history = {.count = rows,
-                              .time = series != NULL ? series->time : NULL,
-                              .film_min = values,
-                              .film_central = values + rows,
-                              .error_min = values + 2 * rows,
-                              .error_central = values + 3 * rows};
-  if (status == SB_OK && series != NULL) {
-    SbReport own = {0};
-    status = follow(&history, problem, series, &own);
-    own.input = 0;
-    code = sb_cli_status(status, &own);
-  } else {
-    series = NULL;
-  }
   if (status == SB_OK || status == SB_ERROR_NOT_CONVERGED) {
     int written = SB_EXIT_DONE;
-    if (target != NULL) {
-      g_autofree char *json = sb_results_film(film, series != NULL ? &history : NULL);
-      written = sb_cli_emit(json, target);
+    if (extra->target != NULL) {
+      g_autofree char *json = sb_results_film(film, &more);
+      written = sb_cli_emit(json, extra->target);
     } else if (!sb_cli_quiet()) {
       print_film_table(film, problem);
-      if (series != NULL) {
-        print_history(&history);
-      }
+      sb_film_history_print(film, &more);
       print_other_models(film, problem,
                          given_or(problem, offsetof(SbFilmProblem, pressure_viscosity), texts,
                                   SB_P_FLUID_PRESSURE_VISCOSITY),
@@ -411,6 +401,7 @@ static int solve_and_show(const SbFilmProblem *problem, char *const *texts,
 int sb_command_film(int argc, char **argv) {
   char *texts[QUANTITIES] = {NULL};
   char *name = NULL, *surface = NULL, *dry = NULL, *path = NULL, *target = NULL;
+  char *closure = NULL, *content = NULL;
   SbCliPlots plots = {0};
   const GOptionEntry others[] = {
       {"model", 0, 0, G_OPTION_ARG_FILENAME, &name,
@@ -422,6 +413,10 @@ int sb_command_film(int argc, char **argv) {
       {"history", 0, 0, G_OPTION_ARG_FILENAME, &path,
        "Table time [s], speed [m/s] to follow the film through, in place of --speed (reynolds)",
        "FILE.csv"},
+      {"sealed", 0, 0, G_OPTION_ARG_FILENAME, &closure,
+       "Fluid in a contact whose channels are closed: trapped (default), drained, or both", "NAME"},
+      {"content", 0, 0, G_OPTION_ARG_FILENAME, &content,
+       "Also the friction with so much fluid in the contact (--percolation-threshold)", "VALUE"},
       {"json", 0, 0, G_OPTION_ARG_FILENAME, &target, "JSON to a file or -", "FILE|-"},
       {"plot", 0, 0, G_OPTION_ARG_NONE, &plots.on, SB_CLI_PLOT_HELP, NULL},
       {"no-plot", 0, 0, G_OPTION_ARG_NONE, &plots.off, SB_CLI_NO_PLOT_HELP, NULL},
@@ -439,27 +434,25 @@ int sb_command_film(int argc, char **argv) {
   SbFilmProblem problem;
   sb_film_problem_init(&problem);
   problem.cancelled = sb_cli_interrupted;
+  Extra extra = {.content = NAN};
   if (!sb_cli_parse(&argc, &argv, entries, 0, 0, SB_TIMING_NOTE) ||
-      (path != NULL && !read_history(series, &problem, path, texts[1])) ||
-      !read_quantities(&problem, texts) || (name != NULL && !choose_model(&problem, name)) ||
-      !choose_surface(&problem, surface, texts)) {
+      (path != NULL && !sb_film_history_read(series, &problem, path, texts[1])) ||
+      !read_quantities(&problem, texts, path != NULL) ||
+      (name != NULL && !choose_model(&problem, name)) ||
+      !choose_surface(&problem, surface, texts) ||
+      !choose_closure(&extra.closure, closure, &problem) ||
+      !sb_film_history_read_content(&extra.content, &problem, content) ||
+      (path != NULL && !sb_film_history_starts(series, &problem, path))) {
     return SB_EXIT_INPUT;
   }
-  if (sb_film_kind(problem.model)->from_dry != (dry != NULL)) {
-    return sb_cli_fail(dry != NULL ? "--dry-pressure: only the model inverse uses it"
-                                   : "--dry-pressure is missing: the model inverse needs it");
-  }
-  if (dry != NULL && !read_dry_pressure(dry, x, p)) {
+  if (!choose_dry_pressure(&problem, dry, x, p)) {
     return SB_EXIT_INPUT;
   }
   if (!sb_cli_has_memory(NULL)) {
     return SB_EXIT_IO;
   }
-  problem.dry_x = (const double *)(void *)x->data;
-  problem.dry_pressure = (const double *)(void *)p->data;
-  problem.dry_count = x->len;
+  extra.series = path != NULL ? series : NULL;
+  extra.target = target;
   const int code = sb_cli_check_outputs(NULL, NULL, target);
-  return code == SB_EXIT_DONE
-             ? solve_and_show(&problem, texts, path != NULL ? series : NULL, target, &plots)
-             : code;
+  return code == SB_EXIT_DONE ? solve_and_show(&problem, texts, &extra, &plots) : code;
 }

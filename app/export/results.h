@@ -30,13 +30,35 @@ typedef struct {
 // the exit status reports it).
 bool sb_results_converged(const SbSummary *summary, const SbResultsInfo *info);
 
-// A film through a series of speeds; each array has `count` values, NaN where it was not computed.
+// Number of columns of a history, without its times.
+enum { SB_RESULTS_HISTORY_COLUMNS = 5 };
+
+// A film, or the content of a contact whose channels close (content.h), through a series of speeds;
+// each array has `count` values, NaN where it was not computed.
 typedef struct {
   size_t count;
   const double *time;                // [s]
-  double *film_min, *film_central;   // [m]
+  double *film_min, *film_central;   // of a content: least and mean [m]
+  double *friction;                  // on the wall [N/m]
   double *error_min, *error_central; // error estimates, relative
 } SbResultsHistory;
+
+// Returns a history of `count` rows, all NaN, with the `time` [s] (borrowed) and its columns in
+// `values` (SB_RESULTS_HISTORY_COLUMNS * count, borrowed).
+SbResultsHistory sb_results_history(size_t count, const double *time, double *values);
+
+// Friction of a contact with a given content of fluid (content.h).
+typedef struct {
+  double content, closed;     // u; u*, at which the last channel closes [m]
+  double friction, real_area; // [N/m]; [m]
+} SbResultsContent;
+
+// What a document of a film has beside the film; NULL and zero: nothing.
+typedef struct {
+  const SbResultsHistory *history;
+  const SbFilm *drained; // the same contact without fluid, for "intervals"
+  SbResultsContent content;
+} SbResultsFilmExtra;
 
 // Rows (sb_result_value()) of SbFilm: the results; what the contact alone determines; the
 // asperities; the error estimates. Of SbFit: the results; those with a contact; those of the ring
@@ -48,8 +70,8 @@ extern const SbResultRow sb_film_rows[], sb_film_contact_rows[], sb_film_rough_r
 // Returns the document of a run that has ended.
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info);
 
-// Returns the document of a film. `history`: of a series of speeds; NULL: none.
-char *sb_results_film(const SbFilm *film, const SbResultsHistory *history);
+// Returns the document of a film with what `extra` has.
+char *sb_results_film(const SbFilm *film, const SbResultsFilmExtra *extra);
 
 // Returns whether the solver found a contact, also one whose residual is above the tolerance. If
 // false, the results of the contact are null.

@@ -132,7 +132,63 @@ static void put_film_reasons(SbJson *json, const SbFilm *film, bool none) {
   sb_json_object_end(json);
 }
 
-char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
+SbResultsHistory sb_results_history(size_t count, const double *time, double *values) {
+  for (size_t i = 0; i < SB_RESULTS_HISTORY_COLUMNS * count; i++) {
+    values[i] = NAN;
+  }
+  return (SbResultsHistory){.count = count,
+                            .time = time,
+                            .film_min = values,
+                            .film_central = values + count,
+                            .friction = values + 2 * count,
+                            .error_min = values + 3 * count,
+                            .error_central = values + 4 * count};
+}
+
+// Figures of a film that differ with the closure of its channels, each as low and high.
+static void put_intervals(SbJson *json, const SbFilm *trapped, const SbFilm *drained) {
+  const SbResultRow *const rows[] = {sb_film_rows, sb_film_rough_rows};
+  sb_json_object(json, "intervals");
+  for (size_t k = 0; k < G_N_ELEMENTS(rows); k++) {
+    for (const SbResultRow *row = rows[k]; row->key != NULL; row++) {
+      const double a = sb_result_value(row, trapped), b = sb_result_value(row, drained);
+      if (a != b) {
+        sb_json_numbers(json, row->key, (const double[]){fmin(a, b), fmax(a, b)}, 2);
+      }
+    }
+  }
+  sb_json_object_end(json);
+}
+
+// What a document has beside the film.
+static void put_extra(SbJson *json, const SbFilm *film, const SbResultsFilmExtra *extra) {
+  const SbResultsHistory *history = extra->history;
+  if (extra->drained != NULL) {
+    put_intervals(json, film, extra->drained);
+  }
+  if (extra->content.closed > 0) {
+    sb_json_object(json, "content");
+    sb_json_number(json, "content_m", extra->content.content);
+    sb_json_number(json, "closed_m", extra->content.closed);
+    sb_json_number(json, "friction_N_per_m", extra->content.friction);
+    sb_json_number(json, "real_area_m", extra->content.real_area);
+    sb_json_object_end(json);
+  }
+  if (history != NULL) {
+    sb_json_object(json, "history");
+    sb_json_numbers(json, "time_s", history->time, history->count);
+    sb_json_numbers(json, "film_min_m", history->film_min, history->count);
+    sb_json_numbers(json, "film_central_m", history->film_central, history->count);
+    sb_json_numbers(json, "friction_N_per_m", history->friction, history->count);
+    sb_json_object(json, "error_estimate");
+    sb_json_numbers(json, "film_min", history->error_min, history->count);
+    sb_json_numbers(json, "film_central", history->error_central, history->count);
+    sb_json_object_end(json);
+    sb_json_object_end(json);
+  }
+}
+
+char *sb_results_film(const SbFilm *film, const SbResultsFilmExtra *extra) {
   // A solver that found nothing has no figures; what describes the problem stays.
   const bool none = !film->solver.converged && film->film_central == 0;
   SbJson json;
@@ -168,17 +224,7 @@ char *sb_results_film(const SbFilm *film, const SbResultsHistory *history) {
   sb_json_numbers(&json, "film_m", film->film, film->points);
   sb_json_numbers(&json, "asperity_pressure_Pa", film->asperity_pressure, film->points);
   sb_json_object_end(&json);
-  if (history != NULL) {
-    sb_json_object(&json, "history");
-    sb_json_numbers(&json, "time_s", history->time, history->count);
-    sb_json_numbers(&json, "film_min_m", history->film_min, history->count);
-    sb_json_numbers(&json, "film_central_m", history->film_central, history->count);
-    sb_json_object(&json, "error_estimate");
-    sb_json_numbers(&json, "film_min", history->error_min, history->count);
-    sb_json_numbers(&json, "film_central", history->error_central, history->count);
-    sb_json_object_end(&json);
-    sb_json_object_end(&json);
-  }
+  put_extra(&json, film, extra);
   sb_json_object_end(&json);
   return sb_json_finish(&json);
 }

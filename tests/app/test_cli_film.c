@@ -65,8 +65,12 @@ static void test_film_history(void) {
   CliResult good = CLI(AT_REST, "--history", path);
   g_assert_cmpint(good.code, ==, 0);
   JsonNode *json = cli_parse(good.out);
-  const char *const names[] = {"time_s", "film_min_m", "film_central_m", "error_estimate.film_min",
-                               "error_estimate.film_central"};
+  const char *const names[] = {"time_s",
+                               "film_min_m",
+                               "film_central_m",
+                               "error_estimate.film_min",
+                               "error_estimate.film_central",
+                               "friction_N_per_m"};
   double value[G_N_ELEMENTS(names)][3];
   for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
     g_autofree char *name = g_strconcat("history.", names[k], NULL);
@@ -83,8 +87,12 @@ static void test_film_history(void) {
     g_assert_cmpfloat(value[1][i], <, value[2][i]);
     g_assert_true(value[3][i] > 0 && value[3][i] < 0.03);
     g_assert_true(value[4][i] > 0 && value[4][i] < 0.01);
+    g_assert_cmpfloat(value[5][i], >, 0);
   }
   g_assert_cmpfloat(value[1][2], <, value[1][0]); // slower
+  const double steady = cli_number(json, "friction_couette_N_per_m") +
+                        cli_number(json, "friction_poiseuille_N_per_m");
+  g_assert_cmpfloat_with_epsilon(value[5][0] / steady, 1, 1e-2);
   json_node_unref(json);
   cli_clear(&good);
   static const struct {
@@ -107,6 +115,52 @@ static void test_film_history(void) {
   cli_clear(&both);
   g_free(path);
 #undef AT_REST
+}
+
+// Contents: friction at rest and in motion, the interval of both closures, and a history that
+// starts with a drained contact.
+static void test_film_content(void) {
+#define CLOSED                                                                                     \
+  "film", "--load", "997.7344N/m", "--radius", "0.805mm", "--modulus", "6.5725154MPa",             \
+      "--viscosity", "0.211mPa.s", "--surface", "persson", "--shear-strength", "0.388MPa",         \
+      "--load-coefficient", "0", "--percolation-threshold", "0.42", "--json", "-"
+  CliResult good = CLI(CLOSED, "--speed", "0.3333mm/s", "--sealed", "both", "--content", "57.3nm");
+  g_assert_cmpint(good.code, ==, 0);
+  JsonNode *json = cli_parse(good.out);
+  JsonArray *friction = json_node_get_array(cli_at(json, "intervals.friction_boundary_N_per_m"));
+  const double trapped = json_array_get_double_element(friction, 0);
+  const double drained = json_array_get_double_element(friction, 1);
+  g_assert_cmpfloat(cli_number(json, "friction_boundary_N_per_m"), ==, trapped);
+  g_assert_cmpfloat_with_epsilon(drained / 423.6, 1, 5e-3);
+  g_assert_cmpfloat_with_epsilon(cli_number(json, "content.closed_m"), 114.6e-9, 0.5e-9);
+  const double between = cli_number(json, "content.friction_N_per_m");
+  g_assert_true(trapped < between && between < drained);
+  json_node_unref(json);
+  cli_clear(&good);
+  char *path = g_build_filename(cli.folder, "speed.csv", NULL);
+  g_assert_true(
+      g_file_set_contents(path, "time [s],speed [mm/s]\n0,0\n1e-3,0.3\n30,0.3\n", -1, NULL));
+  CliResult started = CLI(CLOSED, "--history", path);
+  g_assert_cmpint(started.code, ==, 0);
+  json = cli_parse(started.out);
+  JsonArray *rows = json_node_get_array(cli_at(json, "history.friction_N_per_m"));
+  g_assert_cmpfloat_with_epsilon(json_array_get_double_element(rows, 0) / drained, 1, 5e-3);
+  g_assert_cmpfloat_with_epsilon(json_array_get_double_element(rows, 2) / trapped, 1, 1e-2);
+  json_node_unref(json);
+  cli_clear(&started);
+  g_free(path);
+  static const struct {
+    const char *option, *value, *message;
+  } bad[] = {{"--sealed", "wet", "allowed drained, trapped, both"},
+             {"--content", "11um", "allowed 0 nm to 10000 nm"},
+             {"--content", "-1nm", "out of range"}};
+  for (size_t k = 0; k < G_N_ELEMENTS(bad); k++) {
+    CliResult refused = CLI(CLOSED, "--speed", "1mm/s", bad[k].option, bad[k].value);
+    g_assert_cmpint(refused.code, ==, 1);
+    g_assert_nonnull(strstr(refused.err, bad[k].message));
+    cli_clear(&refused);
+  }
+#undef CLOSED
 }
 
 static void test_film_options(void) {
@@ -214,6 +268,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cli/film-digits", test_film_digits);
   g_test_add_func("/cli/film-options", test_film_options);
   g_test_add_func("/cli/film-history", test_film_history);
+  g_test_add_func("/cli/film-content", test_film_content);
   int result = g_test_run();
   cli_tear_down();
   return result;

@@ -119,29 +119,31 @@ static double persson_t(double soft) {
   return -log(expm1(soft));
 }
 
-// phi_p^(1/4) from node `closed`, the last one without flow, with slopes that keep it monotone
+// Node of Persson's law at the percolation threshold.
+enum { CLOSED = 108 };
+
+// phi_p^(1/4) from node CLOSED, the last one without flow, with slopes that keep it monotone
 // (F.N. Fritsch & R.E. Carlson, SIAM J. Numer. Anal. 17 (1980) 238, sufficient limit).
-static SbStatus table_flow(SbRoughLaw *law, const SbSpectrum *spectrum, int closed,
-                           SbReport *report) {
+static SbStatus table_flow(SbRoughLaw *law, const SbSpectrum *spectrum, SbReport *report) {
   // Beyond, 1 - phi_p decreases with the square of the gap.
-  const int last = (int)fmin(law->count - 1, closed + SB_FLOW_PRESSURES);
+  const int last = (int)fmin(law->count - 1, CLOSED + SB_FLOW_PRESSURES);
   double log_p[SB_FLOW_PRESSURES], phi[SB_FLOW_PRESSURES];
   double *value = law->value[FLOW], *slope = law->slope[FLOW];
-  for (int i = closed + 1; i <= last; i++) {
-    log_p[i - closed - 1] = M_LN2 - law->value[PRESSURE][i];
+  for (int i = CLOSED + 1; i <= last; i++) {
+    log_p[i - CLOSED - 1] = M_LN2 - law->value[PRESSURE][i];
   }
   SbStatus status =
-      sb_flow_factors(phi, log_p, last - closed, spectrum, law->surface.threshold, report);
+      sb_flow_factors(phi, log_p, last - CLOSED, spectrum, law->surface.threshold, report);
   if (status != SB_OK) {
     return status;
   }
-  for (int i = closed + 1; i < law->count; i++) {
+  for (int i = CLOSED + 1; i < law->count; i++) {
     const double wider = exp(2 * (law->value[GAP][last] - law->value[GAP][i]));
-    const double flow = i <= last ? phi[i - closed - 1] : 1 - (1 - phi[last - closed - 1]) * wider;
+    const double flow = i <= last ? phi[i - CLOSED - 1] : 1 - (1 - phi[last - CLOSED - 1]) * wider;
     value[i] = fmax(value[i - 1], sqrt(sqrt(flow)));
   }
-  for (int i = closed; i < law->count - 1; i++) {
-    const double below = i > closed ? value[i] - value[i - 1] : 0, above = value[i + 1] - value[i];
+  for (int i = CLOSED; i < law->count - 1; i++) {
+    const double below = i > CLOSED ? value[i] - value[i - 1] : 0, above = value[i + 1] - value[i];
     slope[i] = fmin(0.5 * (below + above), 3 * fmin(below, above)) / law->step;
   }
   slope[law->count - 1] = (value[law->count - 1] - value[law->count - 2]) / law->step;
@@ -165,8 +167,7 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
   // The threshold is a node; without one the grid is about the same.
   const double threshold = s->threshold > 0 ? s->threshold : 0.5;
   const double closing = sb_persson_pressure(&spectrum, spectrum.q1, 2, threshold);
-  const int closed = 108;
-  law->begin = s->threshold > 0 ? persson_t(closing / p_1) - closed * law->step : -11;
+  law->begin = s->threshold > 0 ? persson_t(closing / p_1) - CLOSED * law->step : -11;
   for (int i = 0; i < law->count; i++) {
     double t = law->begin + law->step * i;
     double soft = t > 0 ? log1p(exp(-t)) : -t + log1p(exp(t));
@@ -182,7 +183,7 @@ static SbStatus table_persson(SbRoughLaw *law, SbReport *report) {
     law->value[SHARE][i] = log(erf(z));
     law->slope[SHARE][i] = 2 / sqrt(M_PI) * z * exp(-z * z) / erf(z) * by_t;
   }
-  return s->threshold > 0 ? table_flow(law, &spectrum, closed, report) : sb_succeed(report);
+  return s->threshold > 0 ? table_flow(law, &spectrum, report) : sb_succeed(report);
 }
 
 // ---------------------------------------------------------------- both
@@ -289,6 +290,10 @@ static double invert(const SbRoughLaw *law, int quantity, double wanted) {
     f = fmin(fmax(f + (wanted - now) / (by * law->step), 0), 1);
   }
   return law->begin + law->step * ((double)i + f);
+}
+
+double sb_rough_law_closed_gap(const SbRoughLaw *law) {
+  return law->surface.threshold > 0 ? law->surface.sigma * exp(law->value[GAP][CLOSED]) : NAN;
 }
 
 double sb_rough_law_of_gap(const SbRoughLaw *law, double gap) {

@@ -108,6 +108,9 @@ void sb_rough_law_at(SbRoughPoint *out, const SbRoughLaw *law, double t);
 // Returns the parameter t at a mean gap [m] > 0.
 double sb_rough_law_of_gap(const SbRoughLaw *law, double gap);
 
+// Returns the mean gap u* [m] at which the last channel closes; NaN without a threshold.
+double sb_rough_law_closed_gap(const SbRoughLaw *law);
+
 // Returns the parameter t at the pressure p [Pa] > 0.
 double sb_rough_law_of_pressure(const SbRoughLaw *law, double pressure);
 
