@@ -205,6 +205,30 @@ static void test_stuck(void) {
   }
 }
 
+// A stem that a machine moves stops at its end stop alone: there static friction counts, elsewhere
+// that of sliding. Both margins have figures of their own, which do not depend on the choice.
+static void test_may_stop(void) {
+  SbSummary summary[2];
+  for (int stop = 0; stop < 2; stop++) {
+    Setting settings[] = {{SB_P_FRICTION_STATIC_RATIO, 1.7}, {SB_P_DRIVE_MAY_STOP, stop}};
+    SbRun *run = run_cycle(settings, G_N_ELEMENTS(settings));
+    summary[stop] = *sb_run_summary(run);
+    g_assert_cmpfloat(summary[stop].energy.closure, <, 1e-6);
+    sb_run_destroy(run);
+  }
+  const SbSummary *anywhere = &summary[0], *stop = &summary[1];
+  g_assert_cmpint(anywhere->outcome, ==, SB_OUTCOME_STUCK);
+  g_assert_cmpint(stop->outcome, ==, SB_OUTCOME_RETURNED);
+  g_assert_cmpint(stop->verdict[SB_VERDICT_RETURNS].ok, ==, SB_ANSWER_YES);
+  g_assert_cmpfloat(anywhere->force_return_margin, ==, anywhere->force_return_margin_anywhere);
+  g_assert_cmpfloat(stop->force_return_margin, ==,
+                    fmin(stop->force_return_margin_stop, stop->force_return_min));
+  g_assert_cmpfloat(anywhere->force_return_margin_anywhere, ==, stop->force_return_margin_anywhere);
+  g_assert_cmpfloat(anywhere->force_return_margin_stop, ==, stop->force_return_margin_stop);
+  // At the stop only the outer ring is on the land.
+  g_assert_cmpfloat(stop->force_return_margin_stop, >, stop->force_return_margin_anywhere);
+}
+
 // A drive that does not overcome the static friction moves nothing, and a ramp holds the stem.
 static void test_drives(void) {
   Setting weak[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
@@ -537,6 +561,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/roughness", test_roughness);
   g_test_add_func("/cycle/return-of-frames", test_return_of_frames);
   g_test_add_func("/cycle/stuck", test_stuck);
+  g_test_add_func("/cycle/may-stop", test_may_stop);
   g_test_add_func("/cycle/drives", test_drives);
   g_test_add_func("/cycle/press", test_press);
   g_test_add_func("/cycle/frames", test_frames);

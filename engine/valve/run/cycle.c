@@ -142,11 +142,19 @@ static void jump(Planner *p, const SbCyclePlace *place, double end) {
   emit(p, SB_CYCLE_JUMP, p->X, target, -1);
 }
 
-// Returns whether static friction holds the stem at its position on the return. The first such
-// position is known to rounding only.
+// Push less the friction that can hold the stem at s on its return: static friction where the stem
+// may stop (drive.may_stop), else that of sliding.
+static double hold_at(double s, const void *place) {
+  const SbCycle *cycle = ((const SbCyclePlace *)place)->cycle;
+  const bool moves = cycle->model->stops_at_stop && s < cycle->stem_top;
+  return (moves ? sb_cycle_balance_at : sb_cycle_reserve_at)(s, place);
+}
+
+// Returns whether friction holds the stem at its position on the return. The first such position is
+// known to rounding only.
 static bool is_held(const Planner *p) {
-  return sb_cycle_reserve(p->cycle, p->chamber, p->s) <=
-         1e-9 * fabs(sb_model_push(p->cycle->model, p->s));
+  const SbCyclePlace place = {p->cycle, p->chamber, SB_CYCLE_OUT, 0};
+  return hold_at(p->s, &place) <= 1e-9 * fabs(sb_model_push(p->cycle->model, p->s));
 }
 
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
@@ -166,9 +174,9 @@ static void slide(Planner *p) {
     if (excess < -noise || (out && is_held(p))) {
       return; // resistance has risen above the force: the stem sticks
     }
-    if (out && sb_cycle_reserve_at(end, &place) < 0) {
-      // Static friction exceeds the push inside this piece: the stem comes to rest there.
-      end = sb_bisect(sb_cycle_reserve_at, &place, p->s, end);
+    if (out && hold_at(end, &place) < 0) {
+      // Friction exceeds the push inside this piece: the stem comes to rest there.
+      end = sb_bisect(hold_at, &place, p->s, end);
       if (end == p->s) {
         return;
       }
@@ -259,7 +267,7 @@ double sb_cycle_sliding_margin(const SbCycle *cycle, double top) {
   return least_of(cycle, sb_cycle_balance_at, top);
 }
 
-double sb_cycle_return_margin(const SbCycle *cycle, double top) {
+double sb_cycle_static_margin(const SbCycle *cycle, double top) {
   return least_of(cycle, sb_cycle_reserve_at, top);
 }
 
@@ -296,7 +304,7 @@ static SbStatus press(Planner *p, double *dwell, double *stopped, SbReport *repo
 }
 
 // Follows the return after a rest of `dwell` [s] at the stop: the stem follows the platen while the
-// push exceeds static friction.
+// push exceeds the friction that can hold it.
 static SbStatus release(Planner *p, double dwell, SbReport *report) {
   SbCycle *cycle = p->cycle;
   const SbModel *model = cycle->model;

@@ -146,8 +146,9 @@ double sb_cycle_first_reserve(const SbCycle *cycle, double top);
 double sb_cycle_sliding_margin(const SbCycle *cycle, double top);
 
 // Returns the minimum of sb_cycle_reserve() over the return from `top` [m] to 0 [N]: the return
-// margin of every motion model. With ports both the vented and the full chamber are considered.
-double sb_cycle_return_margin(const SbCycle *cycle, double top);
+// margin of a stem that may stop anywhere. With ports both the vented and the full chamber are
+// considered.
+double sb_cycle_static_margin(const SbCycle *cycle, double top);
 
 // Returns the closure of an energy balance, relative to its largest work: `residual`, or 0 if it is
 // rounding, at most 1e-10 of a sum of some thousand products.

@@ -214,6 +214,7 @@ static void clear_motion(SbRun *run, const char *why) {
   SbSummary *summary = &run->summary; // stages that were reached remain
   summary->force_peak = summary->force_return_min = summary->leakage_per_cycle = NAN;
   summary->force_return_margin = summary->force_press = summary->stuck_at = NAN;
+  summary->force_return_margin_anywhere = summary->force_return_margin_stop = NAN;
   summary->duration = summary->error_force = summary->error_energy = NAN;
   summary->energy = (SbEnergy){NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN, NAN};
   summary->outcome = SB_OUTCOME_UNKNOWN;

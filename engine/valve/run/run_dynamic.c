@@ -62,7 +62,7 @@ static SbStatus conclude_motion(SbSummary *out, const SbRecorder *r, SbReport *r
       return status;
     }
     end.sliding_least =
-        fmin(end.sliding_least, sb_cycle_return_margin(&run->cycle, fmin(end.top, model->stroke)));
+        fmin(end.sliding_least, sb_cycle_static_margin(&run->cycle, fmin(end.top, model->stroke)));
   }
   return sb_run_conclude_motion(out, run, &end, report);
 }

@@ -7,8 +7,10 @@
 //   stuck        the stem rests elsewhere without a push of the drive
 //
 // The outcome is unknown where the motion failed, or where the stem still moves when its motion
-// ends. The return margin has one definition in all motions (sb_cycle_return_margin()): it depends
-// on the seals' states, on the largest displacement and on the dwell there, not on speeds.
+// ends. The return margin has one definition in all motions: the minimum over the return path of
+// the push minus the friction, which is static, after the rest at the stop, wherever the stem may
+// stop (drive.may_stop: sb_cycle_static_margin() or sb_cycle_first_reserve()), else that of
+// sliding. It depends on the seals' states, on the largest displacement and on the dwell there.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
@@ -75,6 +77,7 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
   summary->stuck_at = stuck ? end->position : NAN;
   summary->force_press = summary->stage[SB_STAGE_D].reached ? end->press : NAN;
   summary->force_return_min = summary->force_return_margin = NAN;
+  summary->force_return_margin_anywhere = summary->force_return_margin_stop = NAN;
   if (summary->outcome == SB_OUTCOME_NEVER_MOVED) {
     summary->returned = NAN;
     give_reasons(summary, end);
@@ -86,10 +89,15 @@ SbStatus sb_run_conclude_motion(SbSummary *summary, SbRun *run, const SbRunEnd *
     return status;
   }
   const double top = fmin(end->top, run->model->stroke); // the stop yields a little
-  summary->force_return_margin = sb_cycle_return_margin(&run->cycle, top);
+  const double anywhere = sb_cycle_static_margin(&run->cycle, top);
+  const double stop = sb_cycle_first_reserve(&run->cycle, top);
+  const double sliding = fmin(sb_cycle_sliding_margin(&run->cycle, top), end->sliding_least);
+  summary->force_return_margin_anywhere = anywhere;
+  summary->force_return_margin_stop = stop;
+  summary->force_return_margin = run->model->stops_at_stop ? fmin(stop, sliding) : anywhere;
   // A stem that static friction holds at the stop only follows the stop's deflection.
-  if (!stuck || sb_cycle_first_reserve(&run->cycle, top) > 0) {
-    summary->force_return_min = fmin(sb_cycle_sliding_margin(&run->cycle, top), end->sliding_least);
+  if (!stuck || stop > 0) {
+    summary->force_return_min = sliding;
   }
   if (stuck && summary->force_return_margin > 0) {
     // The contact has aged for longer where the stem is than it had at the stop: the friction there
