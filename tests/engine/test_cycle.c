@@ -205,6 +205,27 @@ static void test_stuck(void) {
   }
 }
 
+// Static friction grows while the machine loads the stem, in both motions: they agree on the
+// break-away, however slow the machine is.
+static void test_dwell_while_loaded(void) {
+  const double speed[] = {0.1e-3 / 60, 2e-3 / 60, 20e-3 / 60};
+  double last = INFINITY;
+  for (size_t k = 0; k < G_N_ELEMENTS(speed); k++) {
+    double force[2];
+    for (int motion = 0; motion < 2; motion++) {
+      Setting settings[] = {{SB_P_FRICTION_DWELL_GAIN, 0.1},
+                            {SB_P_DRIVE_SPEED, speed[k]},
+                            {SB_P_MODELS_MOTION, motion}};
+      SbRun *run = run_cycle(settings, G_N_ELEMENTS(settings));
+      force[motion] = sb_run_summary(run)->force_breakaway;
+      sb_run_destroy(run);
+    }
+    g_assert_cmpfloat_with_epsilon(force[1] / force[0], 1, 1e-5);
+    g_assert_cmpfloat(force[0], <, last);
+    last = force[0];
+  }
+}
+
 // A stem that a machine moves stops at its end stop alone: there static friction counts, elsewhere
 // that of sliding. Both margins have figures of their own, which do not depend on the choice.
 static void test_may_stop(void) {
@@ -562,6 +583,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/return-of-frames", test_return_of_frames);
   g_test_add_func("/cycle/stuck", test_stuck);
   g_test_add_func("/cycle/may-stop", test_may_stop);
+  g_test_add_func("/cycle/dwell-while-loaded", test_dwell_while_loaded);
   g_test_add_func("/cycle/drives", test_drives);
   g_test_add_func("/cycle/press", test_press);
   g_test_add_func("/cycle/frames", test_frames);

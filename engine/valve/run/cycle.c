@@ -284,8 +284,9 @@ static SbStatus press(Planner *p, double *dwell, double *stopped, SbReport *repo
                           : sb_cycle_friction(cycle, p->chamber, SB_CYCLE_IN, p->s);
     // Below ambient the canister's pressure may draw the stem in by itself.
     double X_slip = fmax(p->s + (sb_model_push(model, p->s) + friction) / k, p->X);
-    if (model->contact_ageing) {
-      double rested = p->stage == SB_STAGE_A ? model->rest : 0;
+    const bool first = p->stage == SB_STAGE_A;
+    if (model->contact_ageing || (first && model->dwell_gain > 0)) {
+      double rested = first ? model->rest : 0;
       SbStatus status = slip_platen(&X_slip, p, SB_CYCLE_IN, rested, report);
       if (status != SB_OK) {
         return status;
