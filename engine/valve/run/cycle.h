@@ -64,6 +64,8 @@ typedef struct {
   // needs those of sliding, in all chamber states that it can reach, except of the inner seal in
   // SB_CHAMBER_OPEN.
   SbSealState state[SB_SEAL_COUNT][SB_CYCLE_CHAMBERS][SB_RUN_MOTIONS];
+  // Their kinetic friction includes its error, and so must that of states at other speeds.
+  bool kinetic_error_added;
   size_t count; // number of segments
   SbCycleSegment segment[SB_CYCLE_SEGMENTS_MAX];
   // Static friction of a full contact on the return, after the dwell at the end stop [N]; set by

@@ -10,6 +10,7 @@
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/model/motion_kind.h"
 #include "engine/valve/run/contradiction.h"
+#include "engine/valve/run/run_errors.h"
 #include "engine/valve/run/run_private.h"
 
 #ifdef SB_ASSERT_RUNS

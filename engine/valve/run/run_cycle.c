@@ -1,6 +1,7 @@
 // Frames and figures of the quasi-static cycle: evaluations of its segments, none of them a step in
 // time.
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/run/run_errors.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 // ten times that tolerance gives the error: with break-away in the cycle a sum of local errors is
 // not meaningful. Radau IIA has order 5 in its step, so errors decrease about in proportion to the
 // tolerance (tested: test_run_limits.c).
+#include "engine/valve/run/run_errors.h"
 #include "engine/valve/run/run_record.h"
 
 #include "engine/valve/figures/figures.h"
@@ -95,8 +96,10 @@ static void add_errors(SbRun *run, const SbRecorder *one, const SbSummary *of_on
                        const SbRecorder *other, const SbSummary *of_other, double share) {
   sb_run_add_errors(run, of_one, of_other, share);
   run->leak_error += share * run->model->bore_circumference * fabs(one->net - other->net);
-  run->speed_error[SB_CYCLE_IN] += share * speed_error(one->middle, other->middle);
-  run->speed_error[SB_CYCLE_OUT] += share * speed_error(one->middle_back, other->middle_back);
+  if (sb_run_finds_speed(run)) {
+    run->speed_error[SB_CYCLE_IN] += share * speed_error(one->middle, other->middle);
+    run->speed_error[SB_CYCLE_OUT] += share * speed_error(one->middle_back, other->middle_back);
+  }
 }
 
 // Adds a share of what a motion of other steps differs by.

@@ -11,6 +11,7 @@
 // The errors of the terms are added at their worst. They include discretisation and iteration, not
 // the choice of the model.
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/run/run_errors.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -51,16 +52,20 @@ static bool perturb_kinetic(SbRun *run) {
   SbSealState *all = &run->cycle.state[0][0][0];
   bool any = false;
   for (int i = 0; i < SB_SEAL_COUNT * SB_CYCLE_CHAMBERS * SB_RUN_MOTIONS; i++) {
-    const double slides = sb_sliding_friction(&all[i]);
-    if (all[i].friction_error > 0 && slides > 0) {
-      const double times = 1 + all[i].friction_error / slides;
-      all[i].boundary_area *= times;
-      all[i].boundary_load *= times;
-      all[i].friction_viscous *= times;
-      any = true;
-    }
+    any = sb_run_add_kinetic_error(&all[i]) || any;
   }
+  run->cycle.kinetic_error_added = any;
   return any;
+}
+
+bool sb_run_add_kinetic_error(SbSealState *state) {
+  const double slides = sb_sliding_friction(state);
+  const bool known = state->friction_error > 0 && slides > 0;
+  const double times = known ? 1 + state->friction_error / slides : 1;
+  state->boundary_area *= times;
+  state->boundary_load *= times;
+  state->friction_viscous *= times;
+  return known;
 }
 
 static bool perturb_static(SbRun *run) {

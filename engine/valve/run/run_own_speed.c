@@ -32,12 +32,16 @@ static SbStatus proxy_speed(SbRun *run, const SbRunHooks *hooks, SbReport *repor
   return status == SB_ERROR_CANCELLED ? status : SB_OK;
 }
 
+bool sb_run_finds_speed(const SbRun *run) {
+  return run->plan.motion && run->plan.inertia && run->model->drive != SB_MODEL_DRIVE_MACHINE;
+}
+
 SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   const SbModel *model = run->model;
   SbWarnings *warnings = &run->summary.warnings;
   SbStatus status = SB_OK;
   run->speed = model->speed;
-  bool own = run->plan.motion && run->plan.inertia && model->drive != SB_MODEL_DRIVE_MACHINE;
+  const bool own = sb_run_finds_speed(run);
   if (own && run->plan.ring && model->profile == SB_SEAL_PROFILE_CIRCLE) {
     status = proxy_speed(run, hooks, report);
   }

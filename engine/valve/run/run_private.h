@@ -287,6 +287,10 @@ SbStatus sb_run_dynamic(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
                         const SbDynamicsCounters *counters, int cycles);
 
+// Returns whether the speed of the run's states is that which the motion finds; if not, it is
+// drive.speed (run_own_speed.c).
+bool sb_run_finds_speed(const SbRun *run);
+
 // Computes *speed, that of the stem in the middle of B-C, a magnitude [m/s], by a motion with
 // inertia; else the mean speed from B to D, else from E to F, else from E to rest; of a sinusoid
 // that passes none of these its mean speed; else 0. *slips: the stem slides (run_dynamic.c).
@@ -342,35 +346,6 @@ SbStatus sb_run_shelf(SbRun *run, const SbRunHooks *hooks, SbReport *report);
 // Returns the fraction of the chamber that fills in the time from C to F, 0 to 1; NaN if C or F is
 // not reached, if the model has no filling_time, and in a gasket valve.
 double sb_run_filled_share(const SbSummary *summary, const SbModel *model);
-
-// ---- Errors (run_errors.c)
-
-// Sets the motion's errors to 0, before a motion.
-void sb_run_begin_errors(SbRun *run);
-
-// Sets the motion's errors to NaN, after a motion whose errors are not known.
-void sb_run_lose_errors(SbRun *run);
-
-// Adds `share` times the absolute differences between the figures of the summaries `one` and
-// `other` of two motions to run->motion_error.
-void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
-
-enum { SB_RUN_PERTURBATIONS = 3 }; // kinds, for sb_run_perturb()
-
-// Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_PERTURBATIONS: 0
-// kinetic friction larger, 1 static friction larger, 2 the ends of the inner contact moved. Returns
-// false, and changes nothing, if the states have no error of this kind.
-bool sb_run_perturb(SbRun *run, int index);
-
-// Adds the error of the last motion's leakage that its films cause.
-void sb_run_leak_error(SbRun *run);
-
-// Sets summary.error of all figures; the figures and the motion's errors must be set.
-void sb_run_fill_errors(SbRun *run);
-
-// Warns of errors above SB_ERROR_LARGE. Returns SB_ERROR_NOT_CONVERGED instead of SB_OK for an
-// error above SB_ERROR_USELESS, else `status`.
-SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report);
 
 // Sets the fractions of users who are weaker than the summary's forces (run.c).
 void sb_run_set_user_fractions(SbSummary *summary, const SbModel *model);

@@ -8,6 +8,7 @@
 // one load with one predicted at another. Not modelled: the lubricant's film, the cell's noise.
 #include "engine/contact/rough/greenwood_tripp.h"
 #include "engine/valve/figures/figures.h"
+#include "engine/valve/run/run_errors.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>

@@ -5,6 +5,7 @@
 // Between the vented and the filled chamber, contact and film are interpolated between the two at
 // the same speed, and friction follows from them. This is exact while the chamber's pressure is
 // constant, which is all but the milliseconds of filling and venting.
+#include "engine/valve/run/run_errors.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
@@ -136,6 +137,9 @@ void sb_run_state_at(SbSealState *out, SbRun *run, int seal, int chamber, int di
     out->film_error += of->error;
     out->central_error += of->error;
     out->friction_error += of->friction_error * sb_sliding_friction(out);
+  }
+  if (run->cycle.kinetic_error_added) {
+    (void)sb_run_add_kinetic_error(out);
   }
 }
 
