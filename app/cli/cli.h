@@ -272,10 +272,11 @@ SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, c
                         SbReport *report);
 
 // Writes the worst answers of the finished run of a scene (with its `count` studies) and of its
-// cases to verdict[SB_VERDICT_COUNT] and prints the problems. `verdict` is complete in any case.
-// Returns SB_OK, or the status of the last case that failed; SB_ERROR_CANCELLED after an interrupt.
-SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document,
-                      const SbStudy *studies, size_t count);
+// cases to verdict[SB_VERDICT_COUNT]; prints the problems and appends them to `problems` (as
+// sb_cases_judge()). `verdict` is complete in any case. Returns SB_OK, or the status of the last
+// case that failed; SB_ERROR_CANCELLED after an interrupt.
+SbStatus sb_cli_judge(SbCaseVerdict *verdict, GPtrArray *problems, const SbRun *run,
+                      const SbDocument *document, const SbStudy *studies, size_t count);
 
 // Help of --measured.
 #define SB_CLI_MEASURED_HELP "Force over displacement from a test machine, any table of numbers"

@@ -47,7 +47,8 @@ static int report_run(const SbRun *run, const SbDocument *document, const SbMeas
   const unsigned mask = (unsigned)sb_model_number(model, SB_P_OUTPUT_STUDIES);
   const int studied =
       sb_cli_interrupted(NULL) ? SB_EXIT_INTERRUPTED : sb_cli_studies(studies, &count, model, mask);
-  const SbStatus judged = sb_cli_judge(verdict, run, document, studies, count);
+  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+  const SbStatus judged = sb_cli_judge(verdict, problems, run, document, studies, count);
   if (studied == SB_EXIT_INTERRUPTED || judged == SB_ERROR_CANCELLED) {
     sb_cli_fail("interrupted: nothing was written");
     return SB_EXIT_INTERRUPTED;

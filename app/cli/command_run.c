@@ -109,7 +109,9 @@ static int run_one_file(SbCliFiles *files, const SbCliFile *file, void *data) {
       int studied = sb_cli_studies(studies, &study_count, model, plan->studies);
       code = studied != SB_EXIT_DONE ? studied : code;
     }
-    const SbStatus judged = sb_cli_judge(verdict, run, file->document, studies, study_count);
+    g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
+    const SbStatus judged =
+        sb_cli_judge(verdict, problems, run, file->document, studies, study_count);
     const int judged_code = judged == SB_OK                ? SB_EXIT_DONE
                             : judged == SB_ERROR_CANCELLED ? SB_EXIT_INTERRUPTED
                             : judged == SB_ERROR_MEMORY    ? SB_EXIT_IO
@@ -123,6 +125,7 @@ static int run_one_file(SbCliFiles *files, const SbCliFile *file, void *data) {
                           .sha256 = sha256,
                           .partial = code == SB_EXIT_INTERRUPTED,
                           .verdict = verdict,
+                          .problems = problems,
                           .measured = comparison,
                           .studies = studies,
                           .study_count = study_count};

@@ -25,11 +25,10 @@ SbStatus sb_cli_compute(SbRun **out, const SbModel *model, const SbPlan *plan, c
   return executed;
 }
 
-SbStatus sb_cli_judge(SbCaseVerdict *verdict, const SbRun *run, const SbDocument *document,
-                      const SbStudy *studies, size_t count) {
+SbStatus sb_cli_judge(SbCaseVerdict *verdict, GPtrArray *problems, const SbRun *run,
+                      const SbDocument *document, const SbStudy *studies, size_t count) {
   SbVerdict own[SB_VERDICT_COUNT];
   sb_cases_own(own, run, studies, count);
-  g_autoptr(GPtrArray) problems = g_ptr_array_new_with_free_func(g_free);
   SbProgress progress;
   sb_progress_start(&progress, "cases ");
   const SbRunHooks hooks = {.progress = on_run, .cancelled = sb_cli_interrupted, .data = &progress};

@@ -339,7 +339,7 @@ static void put_counters(SbJson *json, const char *key, const SbCounters *counte
 }
 
 bool sb_results_converged(const SbSummary *summary, const SbResultsInfo *info) {
-  bool converged = summary->converged;
+  bool converged = summary->converged && (info->problems == NULL || info->problems->len == 0);
   for (size_t i = 0; i < info->study_count; i++) {
     converged = converged && info->studies[i].complete;
   }
@@ -404,6 +404,17 @@ static void put_models(SbJson *json, const SbModel *model) {
   sb_json_object_end(json);
 }
 
+// Warnings of the run and of cases that failed.
+static void put_run_warnings(SbJson *json, const SbSummary *summary, const SbResultsInfo *info) {
+  g_autofree SbWarnings *all = g_memdup2(&summary->warnings, sizeof summary->warnings);
+  for (guint i = 0; info->problems != NULL && i < info->problems->len; i++) {
+    const char *problem = g_ptr_array_index(info->problems, i);
+    sb_warn_about(all, problem); // one of each case
+    sb_warn_serious(all, "case-failed", 0, "%s", problem);
+  }
+  sb_json_warnings(json, all);
+}
+
 char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   const SbSummary *summary = sb_run_summary(run);
   const SbModel *model = sb_run_model(run);
@@ -440,7 +451,7 @@ char *sb_results_run(const SbRun *run, const SbResultsInfo *info) {
   }
   put_shelf(&json, run);
   put_errors(&json, run);
-  sb_json_warnings(&json, &summary->warnings);
+  put_run_warnings(&json, summary, info);
   put_results_reasons(&json, run, info);
   if (info->study_count > 0) {
     sb_json_array(&json, "studies");

@@ -23,11 +23,12 @@ typedef struct {
   const SbStudy *studies; // [study_count], as output.studies requests
   size_t study_count;
   const SbCaseVerdict *verdict; // [SB_VERDICT_COUNT], from sb_cases_judge()
+  const GPtrArray *problems;    // of cases that failed, as sb_cases_judge() gives them; NULL: none
   const SbComparison *measured; // measured data compared with the run; NULL: none
 } SbResultsInfo;
 
-// Returns whether a run and every point of its studies have converged (solver.converged; if not,
-// the exit status reports it).
+// Returns whether a run, every point of its studies and every case have converged
+// (solver.converged; if not, the exit status reports it).
 bool sb_results_converged(const SbSummary *summary, const SbResultsInfo *info);
 
 // Number of columns of a history, without its times.

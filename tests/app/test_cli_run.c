@@ -148,6 +148,32 @@ static void test_long(void) {
   g_unlink(path);
 }
 
+// A case that its budget of work stops: exit code, stderr, solver.converged and a warning agree.
+static void test_failed_case(void) {
+  g_autofree char *path = g_build_filename(cli.folder, "failed.scene", NULL);
+  g_autofree char *text =
+      g_strdup_printf("[sealbench]\nformat = 1\nkind = scene\nvalve = %s\n[limits]\n"
+                      "cycle.force_breakaway_N = <= 20 N\n[cases]\n"
+                      "spent = models.fit=ring; output.work_limit=10\n",
+                      cli.valve);
+  g_assert_true(g_file_set_contents(path, text, -1, NULL));
+  CliResult result = CLI("run", path, "--json", "-");
+  g_assert_cmpint(result.code, ==, 2);
+  g_assert_nonnull(strstr(result.err, "case spent: "));
+  JsonNode *json = cli_parse(result.out);
+  g_assert_false(json_node_get_boolean(cli_at(json, "solver.converged")));
+  JsonArray *warnings = json_node_get_array(cli_at(json, "warnings"));
+  bool found = false;
+  for (guint i = 0; i < json_array_get_length(warnings); i++) {
+    JsonObject *warning = json_array_get_object_element(warnings, i);
+    found = found || g_str_equal(json_object_get_string_member(warning, "code"), "case-failed");
+  }
+  g_assert_true(found);
+  json_node_unref(json);
+  cli_clear(&result);
+  g_unlink(path);
+}
+
 // --all has every brief figure and the text of each warning; without it there is neither.
 static void test_all(void) {
   CliResult all = CLI("run", "quick-look", "--all");
@@ -233,6 +259,7 @@ int main(int argc, char **argv) {
   cli_set_up();
   g_test_add_func("/cli-run/summary", test_summary);
   g_test_add_func("/cli-run/long", test_long);
+  g_test_add_func("/cli-run/failed-case", test_failed_case);
   g_test_add_func("/cli-run/all", test_all);
   g_test_add_func("/cli-run/long-verdicts", test_long_verdicts);
   g_test_add_func("/cli-run/folder", test_folder);
