@@ -201,3 +201,11 @@ char *sb_format_power(char *out, int exponent) {
   }
   return out;
 }
+
+char *sb_sentence_case(const char *text) {
+  char *out = g_strdup(text);
+  const gsize word = strcspn(out, " ");
+  const bool key = word > 0 && memchr(out, '.', word - 1) != NULL;
+  out[0] = key ? out[0] : g_ascii_toupper(out[0]);
+  return out;
+}

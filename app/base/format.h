@@ -71,3 +71,7 @@ char *sb_format_film_tick(char *out, double length);
 
 // Writes 10 to the power `exponent` with superscript digits.
 char *sb_format_power(char *out, int exponent);
+
+// Returns a copy of `text` whose first letter is a capital, as a sentence begins; not if its first
+// word has a dot, as keys of parameters and figures have ("cycle.force_peak_N"). Freed by g_free().
+char *sb_sentence_case(const char *text);

@@ -56,12 +56,6 @@ char *sb_report_foot(const char *files, const char *hash) {
                          day, hash);
 }
 
-static char *capital(const char *text) {
-  char *out = g_strdup(text);
-  out[0] = g_ascii_toupper(out[0]);
-  return out;
-}
-
 // ---- First page ----
 
 static void draw_verdict(SbReportPages *pages, const Scene *scene) {
@@ -126,7 +120,7 @@ static void draw_notices(SbReportPages *pages, const Scene *scene) {
   for (size_t i = 0; i < summary->warnings.count; i++) {
     const SbWarning *warning = &summary->warnings.item[i];
     if (warning->serious) {
-      g_autofree char *text = capital(warning->text);
+      g_autofree char *text = sb_sentence_case(warning->text);
       sb_report_notice(pages, text, false);
     }
   }

@@ -5,6 +5,7 @@
 
 #include "app/session/session_private.h"
 
+#include "app/base/format.h"
 #include "app/document/typed.h"
 #include "engine/valve/model/motion_kind.h"
 
@@ -18,12 +19,10 @@ G_DEFINE_TYPE(SbSession, sb_session, G_TYPE_OBJECT)
 
 // "9 m is out of range" -> "9 m is out of range."
 static char *sentence(const char *text, const char *allowed) {
-  g_autofree char *copy =
+  g_autofree char *whole =
       allowed != NULL ? g_strdup_printf(_("%s (allowed: %s)"), text, allowed) : g_strdup(text);
+  g_autofree char *copy = sb_sentence_case(whole);
   gsize length = strlen(copy);
-  if (length > 0) {
-    copy[0] = g_ascii_toupper(copy[0]);
-  }
   return g_strconcat(copy, length > 0 && copy[length - 1] == '.' ? "" : ".", NULL);
 }
 

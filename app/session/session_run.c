@@ -2,6 +2,8 @@
 // of the clock. session_request.c decides what is run.
 #include "app/session/session_private.h"
 
+#include "app/base/format.h"
+
 #include <glib/gi18n.h>
 #include <math.h>
 #include <string.h>
@@ -47,9 +49,9 @@ void sb_session_place_playhead(SbSession *session) {
 static void set_failure(SbSession *session, SbStatus status, const SbReport *report) {
   size_t count = 0;
   const SbFrame *frames = sb_run_frames(session->fresh->run, &count);
-  g_autoptr(GString) text =
-      g_string_new(report->text[0] != '\0' ? report->text : sb_status_text(status));
-  text->str[0] = g_ascii_toupper(text->str[0]);
+  g_autofree char *what =
+      sb_sentence_case(report->text[0] != '\0' ? report->text : sb_status_text(status));
+  g_autoptr(GString) text = g_string_new(what);
   if (text->str[text->len - 1] != '.') {
     g_string_append_c(text, '.');
   }

@@ -101,8 +101,8 @@ char *sb_verdict_why(const SbSummary *summary, int kind, const SbVerdict *verdic
     g_string_append_printf(text, _("\nLimit: %s."), limit);
   }
   if (verdict->reason[0] != '\0') {
-    g_string_append_printf(text, "\n%c%s.", g_ascii_toupper(verdict->reason[0]),
-                           verdict->reason + 1);
+    g_autofree char *reason = sb_sentence_case(verdict->reason);
+    g_string_append_printf(text, "\n%s.", reason);
   }
   return g_string_free(g_steal_pointer(&text), FALSE);
 }

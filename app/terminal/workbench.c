@@ -138,7 +138,9 @@ static void compose(SbBench *bench) {
   }
   bench->list_at = bench->timeline_at = (SbCellRect){0, 0, 0, 0};
   if (columns < LEAST_COLUMNS || rows < LEAST_ROWS) {
-    sb_cells_text(cells, 0, 0, columns, _("Too small: 80 x 24 at least"), ground);
+    g_autofree char *least =
+        g_strdup_printf(_("Too small: %d x %d at least"), LEAST_COLUMNS, LEAST_ROWS);
+    sb_cells_text(cells, 0, 0, columns, least, ground);
     return;
   }
   sb_bench_draw_header(bench);

@@ -1,4 +1,5 @@
 // Text to SI and back: exact, in every unit of the catalogue, and every wrong text has its message.
+#include "app/base/format.h"
 #include "app/base/hardness.h"
 #include "app/base/unit.h"
 #include "app/document/typed.h"
@@ -454,6 +455,19 @@ static void test_displayed(void) {
   }
 }
 
+// A sentence begins with a capital, unless it begins with a key.
+static void test_sentences(void) {
+  static const char *const texts[][2] = {
+      {"the stem is stuck", "The stem is stuck"},
+      {"cycle.force_peak_N is above its limit", "cycle.force_peak_N is above its limit"},
+      {"stuck.", "Stuck."},
+      {"", ""}};
+  for (size_t i = 0; i < G_N_ELEMENTS(texts); i++) {
+    g_autofree char *text = sb_sentence_case(texts[i][0]);
+    g_assert_cmpstr(text, ==, texts[i][1]);
+  }
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/units/parse", test_parse);
@@ -470,5 +484,6 @@ int main(int argc, char **argv) {
   g_test_add_func("/units/typed", test_typed);
   g_test_add_func("/units/scales", test_scales);
   g_test_add_func("/units/displayed", test_displayed);
+  g_test_add_func("/units/sentences", test_sentences);
   return g_test_run();
 }
