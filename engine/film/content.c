@@ -279,6 +279,9 @@ SbStatus sb_content_create(SbContent **out, const SbContentProblem *problem, SbR
                    "the content of a contact needs the surface persson, a percolation threshold, a "
                    "half-plane and flooded inlets");
   }
+  if (!(fabs(film->speed) <= problem->speed_scale)) {
+    return sb_fail(report, SB_ERROR_RANGE, "the speed exceeds the largest speed");
+  }
   SbContent *c = calloc(1, sizeof *c);
   if (c == NULL) {
     return sb_fail(report, SB_ERROR_MEMORY, "out of memory");

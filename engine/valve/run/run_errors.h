@@ -1,5 +1,7 @@
-// Error estimates of a run's figures (run_errors.c): of the motion, by the differences between
-// motions with perturbed states and other steps, and of all figures.
+// Error estimates of a run (run_errors.c). The motion's errors are differences between motions,
+// repeated with perturbed states and with other steps; from them and from the states' errors follow
+// the errors of all figures. Errors are absolute, in SI; NaN: not known. Order: begin, the motion,
+// for each perturbation a motion and add, leak, then fill and check when all figures are set.
 #pragma once
 
 #include "engine/valve/run/run_private.h"
@@ -14,23 +16,25 @@ void sb_run_lose_errors(SbRun *run);
 // `other` of two motions to run->motion_error.
 void sb_run_add_errors(SbRun *run, const SbSummary *one, const SbSummary *other, double share);
 
-enum { SB_RUN_PERTURBATIONS = 3 }; // kinds, for sb_run_perturb()
-
 // Increases the kinetic friction of a state by its error. Returns false, and changes nothing, if
-// there is none.
+// the state has no such error.
 bool sb_run_add_kinetic_error(SbSealState *state);
+
+enum { SB_RUN_PERTURBATIONS = 3 }; // kinds, for sb_run_perturb()
 
 // Perturbs the cycle's states by their errors of one kind, `index` below SB_RUN_PERTURBATIONS: 0
 // kinetic friction larger, 1 static friction larger, 2 the ends of the inner contact moved. Returns
-// false, and changes nothing, if the states have no error of this kind.
+// false, and changes nothing, if the states have no error of this kind. The caller saves run->cycle
+// before and restores it afterwards.
 bool sb_run_perturb(SbRun *run, int index);
 
-// Adds the error of the last motion's leakage that its films cause.
+// Adds to run->leak_error the part of the last motion's leakage error that comes from the films.
 void sb_run_leak_error(SbRun *run);
 
 // Sets summary.error of all figures; the figures and the motion's errors must be set.
 void sb_run_fill_errors(SbRun *run);
 
-// Warns of errors above SB_ERROR_LARGE. Returns SB_ERROR_NOT_CONVERGED instead of SB_OK for an
-// error above SB_ERROR_USELESS, else `status`.
+// Adds a warning to the run if a relative error exceeds the limit SB_ERROR_LARGE. If `status` is
+// SB_OK and one exceeds SB_ERROR_USELESS, returns SB_ERROR_NOT_CONVERGED and writes `report`, else
+// `status`. NaN exceeds nothing.
 SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report);
