@@ -39,7 +39,8 @@ SbParams sb_document_params(const SbDocument *document) {
   const int kind = (int)sb_params_get(&params, SB_P_VALVE_KIND);
   for (int i = 0; i < SB_KEEPS_COUNT; i++) {
     SbParamId id, giver;
-    const bool row = sb_params_keeps(&id, &giver, i, kind) && params.given[id];
+    double sign;
+    const bool row = sb_params_keeps(&id, &giver, &sign, i, kind) && params.given[id];
     const SbParams *drawing = !own->given[id] ? &document->base : &file;
     const bool same = !own->given[id] || (saved->given[id] && !document->stated[id] &&
                                           saved->value[id] == own->value[id]);

@@ -103,7 +103,8 @@ void sb_study_note_kept(SbStudyReader *reader) {
     const SbVary *vary = &g_array_index(study->vary, SbVary, k);
     for (int i = 0; i < SB_KEEPS_COUNT; i++) {
       SbParamId id, giver;
-      const bool row = sb_params_keeps(&id, &giver, i, kind) && vary->id == giver;
+      double sign;
+      const bool row = sb_params_keeps(&id, &giver, &sign, i, kind) && vary->id == giver;
       if (row && params.given[id] && vary->distribution.kind != SB_DISTRIBUTION_NORMAL &&
           sb_study_vary_index(study, sb_param(id)->key) < 0) {
         g_autofree char *key = g_strdup_printf(GROUP_VARY ".%s", sb_param(giver)->key);
@@ -128,14 +129,15 @@ static void fix_kept(SbStudyFile *about, const SbStudyFile *study, const double 
     const double change = at >= 0 ? value[at] - sb_model_value(study->base, giver) : 0;
     for (int i = 0; i < SB_KEEPS_COUNT; i++) {
       SbParamId id, follows;
-      const bool row = sb_params_keeps(&id, &follows, i, kind) && follows == giver;
+      double sign;
+      const bool row = sb_params_keeps(&id, &follows, &sign, i, kind) && follows == giver;
       const char *key = sb_param(id)->key;
       if (!row || params.given[id] || sb_study_vary_index(about, key) >= 0 ||
           sb_study_vary_index(study, key) >= 0) {
         continue;
       }
       SbVary vary = {.id = id, .levels = g_new(double, 1)};
-      vary.levels[0] = sb_model_value(study->base, id) + change;
+      vary.levels[0] = sb_model_value(study->base, id) + sign * change;
       vary.distribution =
           (SbDistribution){.kind = SB_DISTRIBUTION_LEVELS, .level = vary.levels, .count = 1};
       g_array_append_val(about->vary, vary);

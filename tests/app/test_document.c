@@ -17,7 +17,8 @@
 static bool follows(SbParamId id) {
   for (int i = 0; i < SB_KEEPS_COUNT; i++) {
     SbParamId kept, giver;
-    const bool piston = sb_params_keeps(&kept, &giver, i, SB_VALVE_PISTON);
+    double sign;
+    const bool piston = sb_params_keeps(&kept, &giver, &sign, i, SB_VALVE_PISTON);
     if (kept == id) {
       return piston;
     }

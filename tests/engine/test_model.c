@@ -290,7 +290,8 @@ static bool follows(SbParamId id, SbParamId giver, int kind) {
   bool found = false;
   for (int i = 0; i < SB_KEEPS_COUNT; i++) {
     SbParamId kept, of;
-    found = found || (sb_params_keeps(&kept, &of, i, kind) && kept == id && of == giver);
+    double sign;
+    found = found || (sb_params_keeps(&kept, &of, &sign, i, kind) && kept == id && of == giver);
   }
   return found;
 }
@@ -306,6 +307,7 @@ static void test_kept(void) {
       {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_STEM_PRESSURE_DIAMETER, 6.2e-3, 5.994e-3},
       {SB_VALVE_PISTON, SB_P_BORE_DIAMETER, SB_P_BORE_ENTRY_DIAMETER, 6.2e-3, 7.2e-3},
       {SB_VALVE_PISTON, SB_P_STEM_SEAL_SPACING, SB_P_STEM_CHAMBER_LENGTH, 7e-3, 3.7e-3},
+      {SB_VALVE_PISTON, SB_P_GLAND_AXIAL_WIDTH, SB_P_STEM_CHAMBER_LENGTH, 2.5e-3, 2.4e-3},
       {SB_VALVE_GASKET, SB_P_STEM_SEAL_SPACING, SB_P_STEM_CHAMBER_LENGTH, 7e-3, 2.6e-3},
       {SB_VALVE_GASKET, SB_P_STEM_PRESSURE_DIAMETER, SB_P_GASKET_BORE_DIAMETER, 2.8e-3, 2.65e-3},
       {SB_VALVE_GASKET, SB_P_STEM_PRESSURE_DIAMETER, SB_P_GASKET_BORE_DIAMETER, 3.1e-3, 2.95e-3},
@@ -341,7 +343,9 @@ static void test_size_checks(void) {
       {SB_VALVE_PISTON, 3e-3, NAN, NAN, "size-limited"},
       {SB_VALVE_PISTON, 3e-3, 2.9e-3, NAN, "size-overlap"},
       {SB_VALVE_PISTON, NAN, 6e-3, NAN, "size-overlap"},
-      {SB_VALVE_PISTON, NAN, NAN, 3.5e-3, "size-overlap"},
+      {SB_VALVE_PISTON, NAN, NAN, 3.5e-3, NULL},
+      {SB_VALVE_PISTON, NAN, NAN, 5.2e-3, "size-limited"},
+      {SB_VALVE_PISTON, NAN, 2.9e-3, 3.5e-3, "size-overlap"},
       {SB_VALVE_PISTON, NAN, 4.2e-3, NAN, NULL},
       {SB_VALVE_GASKET, NAN, 6e-3, NAN, NULL},
   };

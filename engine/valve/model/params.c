@@ -154,42 +154,57 @@ static bool from_choice(SbParamDefault *out, const SbParams *params, SbParamId i
 static const struct {
   SbParamId id, giver, tolerance;
   int kind; // of the valve
-  double own, given;
+  double own, sign, given;
   const char *source;
 } keeps[] = {
-#define SB_KEEPS(id, giver, tolerance, kind, own, given, source)                                   \
-  {SB_P_##id, SB_P_##giver, SB_P_##tolerance, kind, own, given, source},
+#define SB_KEEPS(id, giver, tolerance, kind, own, sign, given, source)                             \
+  {SB_P_##id, SB_P_##giver, SB_P_##tolerance, kind, own, sign, given, source},
 #include "engine/valve/model/params.def"
 };
 
-// The size of a row that is not given, with no regard to its range. To 1e-15 m: the difference of
-// decimals is a decimal (6.2 less 0.206 mm is 5.994 mm).
+// By how much the followed size of a row differs from its default, with the sign of the row.
+static double moved_by(const SbParams *params, int row) {
+  return keeps[row].sign * (sb_params_get(params, keeps[row].giver) - keeps[row].given);
+}
+
+// A size that is not given, of which `row` is one, with no regard to its range. To 1e-15 m: the
+// difference of decimals is a decimal (6.2 less 0.206 mm is 5.994 mm).
 static double followed(const SbParams *params, int row) {
-  const double value =
-      keeps[row].own + (sb_params_get(params, keeps[row].giver) - keeps[row].given);
+  double value = keeps[row].own;
+  for (int i = 0; i < SB_KEEPS_COUNT; i++) {
+    const bool same = keeps[i].id == keeps[row].id && keeps[i].kind == keeps[row].kind;
+    value += same ? moved_by(params, i) : 0;
+  }
   return round(value * 1e15) / 1e15;
 }
 
-// A size that differs from another one by what their defaults differ by. At the other's default it
-// is exactly its own.
+// A size that differs from others by what their defaults differ by. At the others' defaults it is
+// exactly its own. The first of the others that moves it is named.
 static bool from_size(SbParamDefault *out, const SbParams *params, SbParamId id) {
+  int row = -1;
   for (int i = 0; i < SB_KEEPS_COUNT; i++) {
-    if (keeps[i].id == id && (int)sb_params_get(params, SB_P_VALVE_KIND) == keeps[i].kind) {
-      *out = (SbParamDefault){.value = followed(params, i),
-                              .from = table[keeps[i].giver].key,
-                              .giver = (int)keeps[i].giver,
-                              .source = keeps[i].source,
-                              .tag = table[id].tag};
-      out->value = fmin(fmax(out->value, table[id].min), table[id].max);
-      return true;
+    const bool follows =
+        keeps[i].id == id && (int)sb_params_get(params, SB_P_VALVE_KIND) == keeps[i].kind;
+    if (follows && (row < 0 || (moved_by(params, row) == 0 && moved_by(params, i) != 0))) {
+      row = i;
     }
   }
-  return false;
+  if (row < 0) {
+    return false;
+  }
+  *out = (SbParamDefault){.value = followed(params, row),
+                          .from = table[keeps[row].giver].key,
+                          .giver = (int)keeps[row].giver,
+                          .source = keeps[row].source,
+                          .tag = table[id].tag};
+  out->value = fmin(fmax(out->value, table[id].min), table[id].max);
+  return true;
 }
 
-bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind) {
+bool sb_params_keeps(SbParamId *id, SbParamId *giver, double *sign, int index, int kind) {
   *id = keeps[index].id;
   *giver = keeps[index].giver;
+  *sign = keeps[index].sign;
   return keeps[index].kind == kind;
 }
 
@@ -216,10 +231,13 @@ const char *sb_params_size_check(char text[SB_TEXT], SbParamId *id, const SbPara
     return chamber_overlaps(text, params) ? "size-overlap" : NULL;
   }
   SbParamId giver;
-  const bool row = sb_params_keeps(id, &giver, index, (int)sb_params_get(params, SB_P_VALVE_KIND));
+  double sign;
+  const bool row =
+      sb_params_keeps(id, &giver, &sign, index, (int)sb_params_get(params, SB_P_VALVE_KIND));
   const double now = sb_params_get(params, giver), drawn = params->drawn[index];
   const double scatter = sb_params_get(params, keeps[index].tolerance) + 1e-12;
-  if (row && !params->given[*id] && followed(params, index) != sb_params_get(params, *id)) {
+  if (row && !params->given[*id] && moved_by(params, index) != 0 &&
+      followed(params, index) != sb_params_get(params, *id)) {
     sb_text(text, SB_TEXT,
             "%s follows %s to %.6g mm, which is out of its range: it is %.6g mm; set it too",
             table[*id].key, table[giver].key, 1e3 * followed(params, index),

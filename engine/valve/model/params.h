@@ -213,8 +213,9 @@ typedef struct {
 void sb_params_default(SbParamDefault *out, const SbParams *params, SbParamId id);
 
 // Row `index` (below SB_KEEPS_COUNT) of SB_KEEPS, in a valve of `kind` (valve.kind): writes the
-// size to *id and the size that it follows to *giver. Returns false if the row is for another kind.
-bool sb_params_keeps(SbParamId *id, SbParamId *giver, int index, int kind);
+// size to *id, the size that it follows to *giver, and to *sign 1 if it grows with that size, -1 if
+// it shrinks by as much. Returns false if the row is for another kind.
+bool sb_params_keeps(SbParamId *id, SbParamId *giver, double *sign, int index, int kind);
 
 // Number of checks of sizes that belong together: one for each row SB_KEEPS, then the chamber.
 enum { SB_SIZE_CHECKS = SB_KEEPS_COUNT + 1 };
