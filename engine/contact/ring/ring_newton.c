@@ -152,8 +152,9 @@ static SbStatus correct(SbRing *ring, double *change, SbReport *report) {
   (void)sb_ring_turn(contact, fem->du_path, &given, NULL);
   (void)sb_ring_turn(contact, fem->du, &by_friction, NULL);
   const double *direction = ring->arc.direction;
-  *change = -(off_path(ring) + direction[0] * given) /
-            (direction[0] * by_friction + direction[1] * ring->arc.unit);
+  const double across = direction[0] * by_friction + direction[1] * ring->arc.unit;
+  // Friction that does not turn the section cannot correct its turn.
+  *change = across != 0.0 ? -(off_path(ring) + direction[0] * given) / across : 0.0;
   for (size_t k = 0; k < n; k++) {
     fem->du[k] = fem->du_path[k] + *change * fem->du[k];
   }
