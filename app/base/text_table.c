@@ -7,9 +7,7 @@
 #include "app/base/text_table_private.h"
 
 #include <math.h>
-#include <stdint.h>
 #include <string.h>
-#include <unistd.h>
 
 // Lines that are looked at, copied.
 typedef struct {
@@ -18,7 +16,9 @@ typedef struct {
   bool quoted;     // one has a quote
 } Sample;
 
-enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into memory
+// Largest table [bytes]: the largest number of rows, of 64 bytes each.
+static const size_t BYTES_MAX = (size_t)SB_TEXT_TABLE_ROWS_MAX * 64;
+
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
 enum { HEAD_BYTES = 1 << 16 }; // looked at for the encoding
 
@@ -67,28 +67,59 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
                                            : SB_TEXT_TABLE_LATIN1;
 }
 
+// Returns text in UTF-16 as UTF-8, with ? for half of a pair. Freed by g_string_free().
+static GString *narrow(const guint8 *bytes, size_t length, bool big) {
+  const bool marked = length >= 2 && bytes[0] + bytes[1] == 0xff + 0xfe;
+  GString *text = g_string_sized_new(length / 2);
+  for (size_t i = marked ? 2 : 0; i + 1 < length; i += 2) {
+    const unsigned unit =
+        (unsigned)(big ? bytes[i] << 8 | bytes[i + 1] : bytes[i] | bytes[i + 1] << 8);
+    if (unit >= 0x80) {
+      g_string_append_unichar(text, unit >= 0xd800 && unit < 0xe000 ? '?' : unit);
+    } else {
+      g_string_append_c(text, (char)unit);
+    }
+  }
+  return text;
+}
+
 // Finds the encoding, unless it is known, and the ends of lines. Returns NULL; of a file that is
 // not text (a workbook, HTML), the name of its format.
-static const char *find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
+static const char *find_lines(SbTextTableFile *file, const char *bytes, size_t length,
+                              SbTextTableEncoding known) {
   static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
                                            {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},
                                            {"TDSm", "a TDMS file"},
                                            {"<", "HTML or XML"},
                                            {"{", "JSON"},
                                            {"[{", "JSON"},
-                                           {"%PDF", "a PDF"},
-                                           {NULL, NULL}};
-  g_autofree guint8 *head = g_malloc0(HEAD_BYTES + 1);
-  const size_t looked = fread(head, 1, MIN(lines->length, HEAD_BYTES), lines->stream);
-  lines->encoding =
-      known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, lines->length);
-  const bool old = memchr(head, '\n', looked) == NULL && memchr(head, '\r', looked) != NULL;
-  lines->line_end = old ? '\r' : '\n';
-  const char *const *format = formats[0];
-  while (*format != NULL && !g_str_has_prefix((const char *)head, *format)) {
-    format += 2;
+                                           {"%PDF", "a PDF"}};
+  SbTextTableLines *lines = &file->lines;
+  const size_t looked = MIN(length, HEAD_BYTES);
+  lines->encoding = known != SB_TEXT_TABLE_ANY_ENCODING
+                        ? known
+                        : find_encoding((const guint8 *)bytes, looked, length);
+  const bool big = lines->encoding == SB_TEXT_TABLE_UTF16BE;
+  const bool wide = big || lines->encoding == SB_TEXT_TABLE_UTF16LE;
+  lines->old = !wide && lines->encoding != SB_TEXT_TABLE_UTF8;
+  const bool carriage = memchr(bytes, '\n', looked) == NULL && memchr(bytes, '\r', looked) != NULL;
+  lines->line_end = carriage ? '\r' : '\n';
+  for (size_t i = 0; i < G_N_ELEMENTS(formats); i++) {
+    const size_t size = strlen(formats[i][0]);
+    if (length >= size && memcmp(bytes, formats[i][0], size) == 0) {
+      return formats[i][1];
+    }
   }
-  return format[1];
+  const size_t skipped = length >= 3 && memcmp(bytes, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+  if (wide) {
+    GString *text = narrow((const guint8 *)bytes, length, big);
+    length = text->len;
+    g_free(file->owned);
+    bytes = file->owned = g_string_free(text, FALSE);
+  }
+  lines->start = wide ? bytes : bytes + skipped;
+  lines->end = bytes + length;
+  return NULL;
 }
 
 static void string_free(gpointer data) {
@@ -101,8 +132,8 @@ static void take_lines(Sample *sample, SbTextTableLines *lines, size_t from, siz
   if (from > 0) {
     (void)sb_text_table_next(lines); // the rest of a line
   }
-  const size_t start = lines->left;
-  for (size_t i = 0; i < lines_max && start - lines->left < SAMPLE_BYTES &&
+  const char *start = lines->at;
+  for (size_t i = 0; i < lines_max && lines->at - start < SAMPLE_BYTES &&
                      (line = sb_text_table_next(lines)) != NULL;
        i++) {
     g_ptr_array_add(sample->line, g_string_new_len(line->str, (gssize)MIN(line->len, LINE_BYTES)));
@@ -113,13 +144,13 @@ static void take_lines(Sample *sample, SbTextTableLines *lines, size_t from, siz
 
 static Sample take_sample(SbTextTableLines *lines) {
   Sample sample = {.line = g_ptr_array_new_with_free_func(string_free)};
+  const size_t length = (size_t)(lines->end - lines->start);
   take_lines(&sample, lines, 0, SAMPLE_LINES);
   for (size_t part = 1; part <= 3; part++) {
     // Places behind the first look; the last near the end.
-    const size_t from = part < 3 ? part * (lines->length / 3)
-                                 : lines->length - MIN(lines->length, SAMPLE_BYTES / 8);
+    const size_t from = part < 3 ? part * (length / 3) : length - MIN(length, SAMPLE_BYTES / 8);
     if (from > SAMPLE_BYTES) {
-      take_lines(&sample, lines, from & ~(size_t)1, SAMPLE_TAIL);
+      take_lines(&sample, lines, from, SAMPLE_TAIL);
     }
   }
   return sample;
@@ -402,24 +433,23 @@ static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTabl
   return true;
 }
 
-// Recognises the table in a stream; NULL with an issue.
-static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const char *shown,
+// Recognises the table in bytes, which `owned` owns (NULL: the caller). NULL with an issue.
+static SbTextTable *table_of(const char *bytes, size_t length, char *owned, const char *shown,
                              const SbTextTableDialect *wish, GPtrArray *issues) {
   static const SbTextTableDialect nothing = {0};
   g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
-  table->file = g_new0(SbTextTableFile, 1);
-  *table->file =
-      (SbTextTableFile){.shown = g_strdup(shown),
-                        .lines = {.stream = stream, .length = length, .line = g_string_new(NULL)},
-                        .owned = owned};
+  SbTextTableFile *file = table->file = g_new0(SbTextTableFile, 1);
+  file->shown = g_strdup(shown);
+  file->owned = owned;
+  file->lines.line = g_string_new(NULL);
   wish = wish != NULL ? wish : &nothing;
-  const char *format = find_lines(&table->file->lines, wish->encoding);
+  const char *format = find_lines(file, bytes, length, wish->encoding);
   if (format != NULL) {
     sb_issues_add(issues, shown, 0, NULL, NULL, "is %s: export it as text, such as CSV", format);
     return NULL;
   }
-  table->dialect.encoding = table->file->lines.encoding;
-  const Sample sample = take_sample(&table->file->lines);
+  table->dialect.encoding = file->lines.encoding;
+  const Sample sample = take_sample(&file->lines);
   const bool good = recognise(table, &sample, wish, issues);
   g_ptr_array_unref(sample.line);
   return good ? g_steal_pointer(&table) : NULL;
@@ -427,37 +457,24 @@ static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const cha
 
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues) {
-  FILE *stream = fmemopen((void *)(length > 0 ? bytes : ""), MAX(length, 1), "r");
-  return table_of(stream, length, NULL, name, wish, issues);
+  return table_of(length > 0 ? bytes : "", length, NULL, name, wish, issues);
 }
 
 SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
                                 GPtrArray *issues) {
-  struct stat info;
-  const int file = sb_reader_open(&info, path, path, issues);
   size_t length = 0;
-  char *owned = NULL;
-  FILE *stream = NULL;
-  if (file >= 0 && S_ISFIFO(info.st_mode)) {
-    owned = sb_reader_load_stream(&length, file, path, PIPE_BYTES, issues);
-    stream = owned != NULL ? fmemopen(owned, MAX(length, 1), "r") : NULL;
-  } else if (file >= 0 && info.st_size == 0) {
+  char *bytes = sb_reader_load(&length, path, path, BYTES_MAX, issues);
+  if (bytes != NULL && length == 0) {
     sb_issues_add(issues, path, 0, NULL, NULL, "is empty");
-  } else if (file >= 0) {
-    length = (size_t)info.st_size;
-    stream = fdopen(file, "r");
+    g_clear_pointer(&bytes, g_free);
   }
-  if (file >= 0 && (stream == NULL || owned != NULL)) {
-    close(file);
-  }
-  return stream != NULL ? table_of(stream, length, owned, path, wish, issues) : NULL;
+  return bytes != NULL ? table_of(bytes, length, bytes, path, wish, issues) : NULL;
 }
 
 void sb_text_table_free(SbTextTable *table) {
   if (table == NULL) {
     return;
   }
-  fclose(table->file->lines.stream);
   g_string_free(table->file->lines.line, TRUE);
   g_free(table->file->owned);
   g_free(table->file->names);

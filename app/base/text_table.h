@@ -15,8 +15,7 @@
 // follows "in", "/", "_" or a blank, or is in a line of units.
 //
 // An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
-// interpretations in the message. The file stays open and is read piece by piece, so that memory is
-// used only for the requested columns; a file that is truncated meanwhile is refused.
+// interpretations in the message. The bytes of the file are in memory until the table is freed.
 #pragma once
 
 #include "app/base/issue.h"
@@ -84,7 +83,7 @@ SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues);
 
-// Frees a table and closes its file.
+// Frees a table.
 void sb_text_table_free(SbTextTable *table);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTextTable, sb_text_table_free)
 

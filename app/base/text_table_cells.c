@@ -3,7 +3,7 @@
 #include "app/base/text_table_private.h"
 
 #include <math.h>
-#include <stdio.h>
+#include <stdlib.h>
 #include <string.h>
 
 // ---- Cells ----
@@ -201,47 +201,35 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
 // ---- Clocks ----
 
 bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
-  char text[48], mark[3] = "", half = '\0';
-  SbTextTableClock clock = {0};
-  int time[3], *date = clock.date, used = 0;
-  if (memchr(cell->text, ':', cell->length) == NULL || cell->length >= sizeof text ||
-      strspn(cell->text, "0123456789") == 0) {
+  static const char form[] = "^(?:(\\d{1,4})([./-])(\\d\\d?)\\2(\\d{1,4})[ T])?(\\d\\d?):"
+                             "(\\d\\d?):(\\d\\d?)(?:[.,](\\d*))? *(?:([AP])M)?$";
+  enum { YEAR = 1, MARK, MONTH, DAY, HOUR, MINUTE, SECOND, FRACTION, HALF, PARTS };
+  static GRegex *regex; // compiled once, never freed
+  g_autoptr(GMatchInfo) match = NULL;
+  if (memchr(cell->text, ':', cell->length) == NULL) {
     return false;
   }
-  memcpy(text, cell->text, cell->length);
-  text[cell->length] = '\0';
-  const char *c = text;
-  if (sscanf(c, "%4d%c%2d%c%4d%c%n", &date[0], &mark[0], &date[1], &mark[1], &date[2], &mark[2],
-             &used) == 6 &&
-      mark[0] != ':') {
-    if (strchr("./-", mark[0]) == NULL || mark[1] != mark[0] ||
-        (mark[2] != ' ' && mark[2] != 'T')) {
-      return false;
-    }
-    clock.mark = mark[0];
-    c += used;
-  } else {
-    memset(clock.date, 0, sizeof clock.date);
+  if (g_once_init_enter(&regex)) {
+    g_once_init_leave(&regex, g_regex_new(form, G_REGEX_CASELESS | G_REGEX_RAW, 0, NULL));
   }
-  used = 0;
-  if (sscanf(c, "%2d:%2d:%2d%n", &time[0], &time[1], &time[2], &used) != 3 || used == 0 ||
-      time[0] > 23 || time[1] > 59 || time[2] > 60 || strpbrk(c, "+-") != NULL) {
+  if (!g_regex_match_full(regex, cell->text, (gssize)cell->length, 0, 0, &match, NULL)) {
     return false;
   }
-  double fraction = 0;
-  c += used;
-  if (*c == '.' || *c == ',') {
-    text[c - text] = '.';
-    c += MAX(sb_number_read(&fraction, c), 1);
+  const char *part[PARTS];
+  int n[PARTS] = {0}, digits = 0;
+  for (int i = 1, begin, end; i < PARTS; i++) {
+    const bool has = g_match_info_fetch_pos(match, i, &begin, &end) && begin >= 0;
+    part[i] = has ? cell->text + begin : "";
+    n[i] = has && i != FRACTION ? atoi(part[i]) : 0;
+    digits = has && i == FRACTION ? end - begin : digits;
   }
-  used = 0;
-  if (sscanf(c, " %c%*1[mM]%n", &half, &used) == 1 && used == 3) {
-    time[0] = time[0] % 12 + (g_ascii_toupper(half) == 'P' ? 12 : 0);
-    c += used;
-  }
-  clock.seconds = time[0] * 3600 + time[1] * 60 + time[2] + fraction;
-  *out = *c == '\0' ? clock : *out;
-  return *c == '\0';
+  const double fraction = digits > 0 ? strtod(part[FRACTION], NULL) / pow(10, digits) : 0;
+  const bool late = g_ascii_toupper(*part[HALF]) == 'P';
+  const int hour = *part[HALF] != '\0' ? n[HOUR] % 12 + 12 * late : n[HOUR];
+  *out = (SbTextTableClock){.seconds = hour * 3600 + n[MINUTE] * 60 + n[SECOND] + fraction,
+                            .date = {n[YEAR], n[MONTH], n[DAY]},
+                            .mark = *part[MARK]};
+  return n[HOUR] <= 23 && n[MINUTE] <= 59 && n[SECOND] <= 60;
 }
 
 bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates) {

@@ -3,29 +3,22 @@
 
 #include "app/base/text_table.h"
 
-#include <stdio.h>
-
-// The bytes of a table, read line by line. (A memory map would crash if another program truncates
-// the file.)
+// The bytes of a table, read line by line. Text in UTF-16 has become UTF-8.
 typedef struct {
-  FILE *stream;  // of the file, or of bytes in memory
-  size_t length; // of the file when it was opened
-  SbTextTableEncoding encoding;
-  char line_end;     // '\n', or '\r' for files without newlines
-  size_t left;       // bytes that are not read yet
+  const char *start, *end, *at; // first byte, the one after the last, the next one to be read
+  SbTextTableEncoding encoding; // of the file
+  bool old;                     // neither UTF-8 nor UTF-16
+  char line_end;                // '\n', or '\r' for files without newlines
   int number;        // of the line last read; the first one after sb_text_table_seek() is 1
   GString *line;     // that line
-  const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
+  const char *wrong; // why reading ended before the end of the bytes; NULL: it did not; static
 } SbTextTableLines;
-
-// Longest line in UTF-8 [bytes].
-enum { SB_TEXT_TABLE_LINE_MAX = 1 << 26 };
 
 // Continues to read at byte `from`.
 void sb_text_table_seek(SbTextTableLines *lines, size_t from);
 
 // Returns the next line in UTF-8 without its end, borrowed until the next call. NULL at the end, or
-// with `wrong` set if the file cannot be read.
+// with `wrong` set if a line is too long.
 const GString *sb_text_table_next(SbTextTableLines *lines);
 
 // A cell; borrowed from its line, not terminated by 0.
@@ -97,7 +90,7 @@ typedef struct {
 typedef struct SbTextTableFile {
   char *shown; // the file, for messages
   SbTextTableLines lines;
-  char *owned;            // memory of the bytes of a pipe; else NULL
+  char *owned;            // memory of the bytes; NULL: they are the caller's
   SbTextTableShape shape; // of its rows
   char *names;            // names and units above its rows; NULL: none
 } SbTextTableFile;

@@ -1,8 +1,55 @@
-// Reads the rows of a table; see text_table.h.
+// Reads the lines and rows of a table; see text_table.h.
 #include "app/base/text_table_private.h"
 
 #include <math.h>
 #include <string.h>
+
+// ---- Lines ----
+
+enum { LONGEST_LINE = 1 << 26 }; // [bytes]
+
+void sb_text_table_seek(SbTextTableLines *lines, size_t from) {
+  lines->at = lines->start + from;
+  lines->number = 0;
+}
+
+// Converts bytes of an old encoding; without one of their codes, each byte is a character.
+static void convert(GString *line, SbTextTableEncoding encoding) {
+  gsize length;
+  g_autofree char *old = g_strndup(line->str, line->len);
+  const gsize old_length = line->len;
+  const char *from = encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252"
+                     : encoding == SB_TEXT_TABLE_GBK  ? "GB18030"
+                                                      : "CP932";
+  g_autofree char *known = g_convert(old, (gssize)old_length, "UTF-8", from, NULL, &length, NULL);
+  g_string_truncate(line, 0);
+  g_string_append_len(line, known, known != NULL ? (gssize)length : 0);
+  for (gsize i = 0; known == NULL && i < old_length; i++) {
+    g_string_append_unichar(line, (guchar)old[i]);
+  }
+}
+
+const GString *sb_text_table_next(SbTextTableLines *lines) {
+  const char *from = lines->at, *stop = memchr(from, lines->line_end, (size_t)(lines->end - from));
+  stop = stop != NULL ? stop : lines->end;
+  lines->wrong = stop - from > LONGEST_LINE ? "has a line of more than 64 MiB" : lines->wrong;
+  if (from == lines->end || lines->wrong != NULL) {
+    return NULL;
+  }
+  lines->at = MIN(stop + 1, lines->end);
+  lines->number++;
+  while (stop > from && stop[-1] == '\r') {
+    stop--;
+  }
+  g_string_truncate(lines->line, 0);
+  g_string_append_len(lines->line, from, stop - from);
+  if (lines->old && !g_utf8_validate(from, stop - from, NULL)) {
+    convert(lines->line, lines->encoding); // programs mix encodings
+  }
+  return lines->line;
+}
+
+// ---- Rows ----
 
 // Converts times of day to seconds since midnight of the first row. add_days() returns false if it
 // is ambiguous whether a date advances by a day or by a month.
@@ -88,7 +135,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   const char *wrong = NULL;
   const GString *text;
   // A row has two bytes at least. Memory that is not written to does not count.
-  const size_t room = MIN(lines->length / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
+  const size_t room = MIN((size_t)(lines->end - lines->start) / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
   size_t begun = 0; // blocks behind blank lines or names
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);

@@ -9,12 +9,6 @@
 // the clock without any use of the processor [s], after which it ends itself by SIGALRM.
 enum { SB_CAD_SECONDS_MAX = 60, SB_CAD_STALLED_MAX = 120 };
 
-// A straight piece or an arc from (x0, y0) to (x1, y1) in the plane of the drawing [m]; `bulge` as
-// in SbProfilePoint: positive turns left, 0 is straight.
-typedef struct {
-  double x0, y0, x1, y1, bulge;
-} SbCadPiece;
-
 // Returns the scalar product of two vectors.
 static inline double sb_cad_dot(const double a[3], const double b[3]) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
@@ -31,36 +25,21 @@ static inline void sb_cad_cross(double product[3], const double a[3], const doub
 // Writes the point of a curve at t in [0, 1] to `xy`.
 typedef void (*SbCadCurve)(const void *curve, double t, double xy[2]);
 
-// Appends to `pieces` (of SbCadPiece) a chain of pieces that follow the curve `at(curve, t)` [m]
+// Appends to `pieces` (of SbPiece) a chain of pieces that follow the curve `at(curve, t)` [m]
 // from t = 0 to 1 within SB_CAD_TOLERANCE. The curve is first divided into `steps` equal intervals
 // of t, at least 1. Returns false if the curve is not finite or needs too many pieces; `pieces`
 // then contains a part of it.
 bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps);
 
 // Returns the arc from `from` through `middle` to `to`; straight if `middle` is on the line.
-SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
-
-// Returns the arc of a piece with a bulge.
-SbArc sb_cad_circle(const SbCadPiece *piece);
-
-// Returns the length of a piece.
-double sb_cad_length(const SbCadPiece *piece);
-
-// Writes the point of a piece at a fraction of its length.
-void sb_cad_point(const SbCadPiece *piece, double part, double at[2]);
-
-// Returns the position along a piece of the point on its line or circle that is nearest to (x, y):
-// 0 at its start, 1 at its end. On a circle, of the positions that differ by full turns, the one
-// nearest to 0.5: slightly before the start it is slightly negative. Writes the distance of (x, y)
-// from the line or circle [m], never negative, to *off.
-double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
+SbPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
 
 // Largest number of pieces of a layer: each end is compared with each piece.
 enum { SB_CAD_PIECES_MAX = 5000 };
 
 // An outline, as a chain of pieces.
 typedef struct {
-  GArray *chain; // of SbCadPiece
+  GArray *chain; // of SbPiece
   bool closed;   // else by the axis
   guint part;    // equal for outlines of lines that are connected
   bool unsure;   // lines within it are edges of the part or bound a bore
@@ -69,13 +48,13 @@ typedef struct {
 // What is drawn above the axis, or below it and mirrored. The caller provides the arrays.
 typedef struct {
   GPtrArray *outlines; // of SbCadOutline
-  GArray *pieces;      // of SbCadPiece: all those of the outlines; set by the caller
-  GArray *alone;       // of SbCadPiece: they begin at an end that meets no other
+  GArray *pieces;      // of SbPiece: all those of the outlines; set by the caller
+  GArray *alone;       // of SbPiece: they begin at an end that meets no other
   guint doubled;       // pieces drawn twice, of which one is ignored
   guint inner;         // pieces within an outline, which are ignored
 } SbCadLines;
 
-// Appends the outlines of the pieces (of SbCadPiece) of closed entities, above the axis and closed
+// Appends the outlines of the pieces (of SbPiece) of closed entities, above the axis and closed
 // by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
 // share bound neither the material of both nor a recess, an outline within another one at its edge;
 // they vanish.
@@ -86,7 +65,7 @@ void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, doub
 // to that of another; else the outline is unsure.
 void sb_cad_add_open(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
-// Finds the outlines in `entities` (of GArray of SbCadPiece) about the line y = 0, with x as drawn
+// Finds the outlines in `entities` (of GArray of SbPiece) about the line y = 0, with x as drawn
 // and r = |y|: those above it, or below if there are none above. Ends within `gap` [m] are one
 // point; the line y = 0 closes what ends on it. Entities that close by themselves are outlines;
 // edges that two of them share vanish. Of other pieces, in any order, an outline is the outer
@@ -119,9 +98,6 @@ void sb_cad_body_free(SbCadBody *body);
 // becomes its cavity. Warns for each measured body that is not one of revolution. To be called
 // once.
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
-
-// Appends lands, bores and grooves of a counter-clockwise profile, as sb_cad_settle() has done.
-void sb_cad_features(SbCadBody *body);
 
 // Returns the sentence SbCad.axis for an axis along `direction` [3] through the point `through` [3]
 // [m]; `through` NULL: it names no point. Freed by g_free().

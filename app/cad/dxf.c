@@ -42,9 +42,9 @@ typedef struct {
   GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
   GHashTable *line_types; // the same -> its type of lines
   GPtrArray *names;       // of the layers with pieces, in order of appearance
-  GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbCadPiece [m]
+  GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbPiece [m]
   GHashTable *left_out;   // type and reason -> count
-  GArray *centre;         // of SbCadPiece [m]: centre lines
+  GArray *centre;         // of SbPiece [m]: centre lines
   double low;             // all pieces are above this y [m]
   guint pieces, items, placed;
   char *unit;   // owned; NULL: not known
@@ -69,9 +69,9 @@ static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, co
   const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
   bool centre = false, straight = pieces->len > 0;
   for (guint i = 0; i < pieces->len; i++) {
-    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    const SbPiece *piece = &g_array_index(pieces, SbPiece, i);
     double off;
-    (void)sb_cad_place(&g_array_index(pieces, SbCadPiece, 0), piece->x1, piece->y1, &off);
+    (void)sb_piece_place(&g_array_index(pieces, SbPiece, 0), piece->x1, piece->y1, &off);
     straight = straight && piece->bulge == 0 && off <= GAP;
   }
   for (size_t i = 0; straight && i < G_N_ELEMENTS(starts); i++) {
@@ -110,7 +110,7 @@ static bool add_pieces(Drawing *drawing, const char *name, bool centre, GArray *
   }
   // No arc goes further from its chord than that is long times the bulge.
   for (guint i = 0; !centre && i < pieces->len; i++) {
-    const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+    const SbPiece *p = &g_array_index(pieces, SbPiece, i);
     const double deep = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
     drawing->low = fmin(drawing->low, fmin(p->y0, p->y1) - deep);
   }
@@ -189,7 +189,7 @@ static bool place_entity(Drawing *drawing, const SbDxfEntity *entity, const SbDx
   if (reason == NULL && sb_dxf_is(entity, "INSERT")) {
     return place_insert(drawing, entity, &way, on, depth, error);
   }
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   if (reason != NULL || !sb_dxf_pieces(pieces, &way, entity)) {
     count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
@@ -311,7 +311,7 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
   double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
   const bool found = choices->axis == NULL && choices->through == NULL && !choices->section;
   for (guint i = 0; found && i < drawing->centre->len; i++) {
-    const SbCadPiece *line = &g_array_index(drawing->centre, SbCadPiece, i);
+    const SbPiece *line = &g_array_index(drawing->centre, SbPiece, i);
     const double dx = line->x1 - line->x0, dy = line->y1 - line->y0, length = hypot(dx, dy);
     if (length > longest) {
       longest = length;
@@ -358,7 +358,7 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
     for (guint i = 0; i < entities->len; i++) {
       const GArray *pieces = entities->pdata[i];
       for (guint n = 0; n < pieces->len; n++) {
-        SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, n);
+        SbPiece *piece = &g_array_index(pieces, SbPiece, n);
         *piece = sb_dxf_place(&axis, piece);
       }
     }
@@ -411,7 +411,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
       .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref),
-      .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
+      .centre = g_array_new(FALSE, FALSE, sizeof(SbPiece)),
       .low = INFINITY,
       .unit = g_strdup(choices->unit),
   };

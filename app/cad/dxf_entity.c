@@ -161,12 +161,12 @@ SbDxfMap sb_dxf_after(const SbDxfMap *out, const SbDxfMap *in) {
       out->d * in->b + out->e * in->e,          out->d * in->c + out->e * in->f + out->f};
 }
 
-SbCadPiece sb_dxf_place(const SbDxfMap *way, const SbCadPiece *piece) {
+SbPiece sb_dxf_place(const SbDxfMap *way, const SbPiece *piece) {
   double from[2], to[2];
   map(way, piece->x0, piece->y0, from);
   map(way, piece->x1, piece->y1, to);
   const bool turned = way->a * way->e - way->b * way->d < 0;
-  return (SbCadPiece){from[0], from[1], to[0], to[1], turned ? -piece->bulge : piece->bulge};
+  return (SbPiece){from[0], from[1], to[0], to[1], turned ? -piece->bulge : piece->bulge};
 }
 
 // A part of an ellipse, from the angle `start` over `sweep`.
@@ -183,18 +183,18 @@ static void ellipse_at(const void *curve, double t, double xy[2]) {
 }
 
 // Adds a straight line or an arc; an arc is one if the map preserves circles, else is followed.
-static bool add_bulge(GArray *out, const SbDxfMap *way, const SbCadPiece *piece) {
+static bool add_bulge(GArray *out, const SbDxfMap *way, const SbPiece *piece) {
   const double u = hypot(way->a, way->d), v = hypot(way->b, way->e);
   const bool even =
       fabs(u - v) <= 1e-9 * (u + v) && fabs(way->a * way->b + way->d * way->e) <= 1e-9 * u * v;
   if (piece->bulge != 0 && !even) {
-    const SbArc arc = sb_cad_circle(piece);
+    const SbArc arc = sb_piece_arc(piece);
     const Ellipse circle = {
         way,      {arc.centre[0], arc.centre[1]}, {arc.radius, 0}, {0, arc.radius}, arc.start,
         arc.sweep};
     return sb_cad_curve(out, ellipse_at, &circle, 2);
   }
-  const SbCadPiece there = sb_dxf_place(way, piece);
+  const SbPiece there = sb_dxf_place(way, piece);
   g_array_append_val(out, there);
   return true;
 }
@@ -218,8 +218,8 @@ static bool add_arc(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity)
   bool good = n[40] > 0;
   for (int i = 0; good && i < 2; i++) {
     const double a = start + i * turn / 2, b = a + turn / 2;
-    const SbCadPiece half = {n[10] + n[40] * cos(a), n[20] + n[40] * sin(a), n[10] + n[40] * cos(b),
-                             n[20] + n[40] * sin(b), tan(turn / 8)};
+    const SbPiece half = {n[10] + n[40] * cos(a), n[20] + n[40] * sin(a), n[10] + n[40] * cos(b),
+                          n[20] + n[40] * sin(b), tan(turn / 8)};
     good = add_bulge(out, way, &half);
   }
   return good;
@@ -284,9 +284,9 @@ static bool add_points(GArray *out, const SbDxfMap *way, const SbDxfEntity *enti
               (sb_dxf_is(entity, "LWPOLYLINE") || (flags & MESHES) == 0);
   for (guint i = 0; good && i + !(flags & CLOSED) < count; i++) {
     const guint next = (i + 1) % count;
-    const SbCadPiece piece = {at(entity->list[SB_DXF_X], i), at(entity->list[SB_DXF_Y], i),
-                              at(entity->list[SB_DXF_X], next), at(entity->list[SB_DXF_Y], next),
-                              at(entity->list[SB_DXF_BULGE], i)};
+    const SbPiece piece = {at(entity->list[SB_DXF_X], i), at(entity->list[SB_DXF_Y], i),
+                           at(entity->list[SB_DXF_X], next), at(entity->list[SB_DXF_Y], next),
+                           at(entity->list[SB_DXF_BULGE], i)};
     good = (piece.x0 == piece.x1 && piece.y0 == piece.y1) || add_bulge(out, way, &piece);
   }
   return good;
@@ -296,7 +296,7 @@ bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) 
   const double *n = entity->number;
   bool good = false;
   if (sb_dxf_is(entity, "LINE")) {
-    good = add_bulge(out, way, &(SbCadPiece){n[10], n[20], n[11], n[21], 0});
+    good = add_bulge(out, way, &(SbPiece){n[10], n[20], n[11], n[21], 0});
   } else if (sb_dxf_is(entity, "CIRCLE") || sb_dxf_is(entity, "ARC")) {
     good = add_arc(out, way, entity);
   } else if (sb_dxf_is(entity, "ELLIPSE")) {
@@ -307,7 +307,7 @@ bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) 
     good = add_points(out, way, entity);
   }
   for (guint i = 0; good && i < out->len; i++) {
-    const SbCadPiece *p = &g_array_index(out, SbCadPiece, i);
+    const SbPiece *p = &g_array_index(out, SbPiece, i);
     good = fmax(fmax(fabs(p->x0), fabs(p->y0)), fmax(fabs(p->x1), fabs(p->y1))) < FARTHEST;
   }
   return good;

@@ -61,8 +61,8 @@ bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error
 SbDxfMap sb_dxf_after(const SbDxfMap *out, const SbDxfMap *in);
 
 // Returns a piece where the map puts it, as a piece with the same part of a circle.
-SbCadPiece sb_dxf_place(const SbDxfMap *way, const SbCadPiece *piece);
+SbPiece sb_dxf_place(const SbDxfMap *way, const SbPiece *piece);
 
-// Appends the curves of an entity, mapped by `way` to m, to `out` (of SbCadPiece). Returns false if
+// Appends the curves of an entity, mapped by `way` to m, to `out` (of SbPiece). Returns false if
 // it is of a type that is not read, is not sound, or is too far away; `out` may then have a part.
 bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity);

@@ -9,22 +9,22 @@ enum { NEAR_MAX = 1000000 };
 // Ends that are closer are one point, and shorter pieces are ignored [m].
 static const double TINY = 1e-9;
 
-static SbCadPiece reversed(SbCadPiece piece) {
-  return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
+static SbPiece reversed(SbPiece piece) {
+  return (SbPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
 }
 
 // A piece with the circle about its middle in which it is.
 typedef struct {
-  SbCadPiece piece;
+  SbPiece piece;
   double middle[2], reach;
   guint times;    // that it is drawn
   bool inside[2]; // its ends are within another piece
   guint part;     // of the graph: equal for edges that are connected
 } Drawn;
 
-static Drawn drawn_of(const SbCadPiece piece) {
-  Drawn drawn = {.piece = piece, .reach = sb_cad_length(&piece) / 2, .times = 1};
-  sb_cad_point(&piece, 0.5, drawn.middle);
+static Drawn drawn_of(const SbPiece piece) {
+  Drawn drawn = {.piece = piece, .reach = sb_piece_length(&piece) / 2, .times = 1};
+  sb_piece_point(&piece, 0.5, drawn.middle);
   return drawn;
 }
 
@@ -32,17 +32,16 @@ static Drawn drawn_of(const SbCadPiece piece) {
 // Returns whether there is one.
 static bool divide_outline(GArray *all, guint index, guint by, double same) {
   Drawn *whole = &g_array_index(all, Drawn, index), *other = &g_array_index(all, Drawn, by);
-  const SbCadPiece piece = whole->piece, *ends = &other->piece;
+  const SbPiece piece = whole->piece, *ends = &other->piece;
   const double length = 2 * whole->reach, quarter = atan(piece.bulge);
   for (int end = 0; end < 2; end++) {
     double at[2], off;
-    sb_cad_point(ends, end, at);
-    const double part = sb_cad_place(&piece, at[0], at[1], &off);
+    sb_piece_point(ends, end, at);
+    const double part = sb_piece_place(&piece, at[0], at[1], &off);
     if (off <= same && part * length > same && (1 - part) * length > same) {
-      sb_cad_point(&piece, part, at);
-      Drawn first = drawn_of((SbCadPiece){piece.x0, piece.y0, at[0], at[1], tan(part * quarter)});
-      Drawn rest =
-          drawn_of((SbCadPiece){at[0], at[1], piece.x1, piece.y1, tan((1 - part) * quarter)});
+      sb_piece_point(&piece, part, at);
+      Drawn first = drawn_of((SbPiece){piece.x0, piece.y0, at[0], at[1], tan(part * quarter)});
+      Drawn rest = drawn_of((SbPiece){at[0], at[1], piece.x1, piece.y1, tan((1 - part) * quarter)});
       other->inside[end] = true;
       first.inside[0] = whole->inside[0];
       rest.inside[1] = whole->inside[1];
@@ -56,7 +55,7 @@ static bool divide_outline(GArray *all, guint index, guint by, double same) {
 
 // Returns whether two pieces are one, in any direction.
 static bool is_same(const Drawn *a, const Drawn *b, double same) {
-  const SbCadPiece *p = &a->piece, *q = &b->piece;
+  const SbPiece *p = &a->piece, *q = &b->piece;
   const double along =
       fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
   const double back =
@@ -72,7 +71,7 @@ static GArray *tidied(const GArray *pieces, double same) {
   g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(Drawn));
   GArray *out = g_array_new(FALSE, FALSE, sizeof(Drawn));
   for (guint i = 0; i < pieces->len; i++) {
-    const Drawn drawn = drawn_of(g_array_index(pieces, SbCadPiece, i));
+    const Drawn drawn = drawn_of(g_array_index(pieces, SbPiece, i));
     if (2 * drawn.reach > TINY) {
       g_array_append_val(all, drawn);
     }
@@ -112,8 +111,8 @@ typedef struct {
 } Graph;
 
 // Returns the edge as it is left from an end.
-static SbCadPiece piece_from(const Graph *graph, guint end) {
-  const SbCadPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
+static SbPiece piece_from(const Graph *graph, guint end) {
+  const SbPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
   return end % 2 == 0 ? piece : reversed(piece);
 }
 
@@ -131,8 +130,8 @@ static void join_ends(Graph *graph, double gap, GArray *alone) {
   for (guint pass = 0; pass < 2 * count; pass++) {
     const bool first = pass < count;
     const guint end = pass % count;
-    const SbCadPiece piece = piece_from(graph, end);
-    const bool itself = sb_cad_length(&piece) > 2 * gap; // the gap of an arc
+    const SbPiece piece = piece_from(graph, end);
+    const bool itself = sb_piece_length(&piece) > 2 * gap; // the gap of an arc
     double nearest = first ? TINY * TINY : gap * gap;
     guint best = count;
     if (first) {
@@ -141,7 +140,7 @@ static void join_ends(Graph *graph, double gap, GArray *alone) {
       continue;
     }
     for (guint k = 0; k < (first ? end : count); k++) {
-      const SbCadPiece other = piece_from(graph, k);
+      const SbPiece other = piece_from(graph, k);
       const double dx = other.x0 - piece.x0, dy = other.y0 - piece.y0, off = dx * dx + dy * dy;
       if (off <= nearest && k != end && (itself || k / 2 != end / 2)) {
         nearest = off;
@@ -179,19 +178,19 @@ static void close_by_axis(Graph *graph) {
     g_array_index(graph->edges, Drawn, end / 2).part = own;
   }
   for (guint end = 0; end < count; end++) {
-    const SbCadPiece from = piece_from(graph, end);
+    const SbPiece from = piece_from(graph, end);
     const bool begins = from.y0 == 0 && graph->node[end] == end && open[part[end]];
     guint best = count;
     double x = INFINITY; // of the next end to the right
     for (guint k = 0; begins && k < count; k++) {
-      const SbCadPiece to = piece_from(graph, k);
+      const SbPiece to = piece_from(graph, k);
       if (to.y0 == 0 && part[k] == part[end] && to.x0 > from.x0 + TINY && to.x0 < x) {
         best = k;
         x = to.x0;
       }
     }
     if (best < count) {
-      const Drawn axis = drawn_of((SbCadPiece){from.x0, 0, x, 0, 0});
+      const Drawn axis = drawn_of((SbPiece){from.x0, 0, x, 0, 0});
       g_array_append_val(graph->edges, axis);
       join_end(graph, 2 * graph->edges->len - 2, end);
       join_end(graph, 2 * graph->edges->len - 1, best);
@@ -221,9 +220,9 @@ static void turn_ends(const Graph *graph) {
     }
     for (guint i = 0; i < all->len; i++) {
       const guint own = g_array_index(all, guint, i);
-      const SbCadPiece piece = piece_from(graph, own);
+      const SbPiece piece = piece_from(graph, own);
       double at[2];
-      sb_cad_point(&piece, near / sb_cad_length(&piece), at);
+      sb_piece_point(&piece, near / sb_piece_length(&piece), at);
       angle[own] = atan2(at[1] - piece.y0, at[0] - piece.x0);
     }
     g_array_sort_with_data(all, compare_angles, angle);
@@ -234,8 +233,8 @@ static void turn_ends(const Graph *graph) {
 }
 
 // Twice the area between a piece and the point (x, 0), positive if it is on the left of the piece.
-static double area_of(const SbCadPiece *p, double x) {
-  const SbArc arc = p->bulge != 0 ? sb_cad_circle(p) : (SbArc){0};
+static double area_of(const SbPiece *p, double x) {
+  const SbArc arc = p->bulge != 0 ? sb_piece_arc(p) : (SbArc){0};
   return (p->x0 - x) * p->y1 - (p->x1 - x) * p->y0 +
          arc.radius * arc.radius * (arc.sweep - sin(arc.sweep));
 }
@@ -252,14 +251,14 @@ static void add_outline(GPtrArray *outlines, const Graph *graph, const guint *cy
       first = cycle[(i + 1) % count] / 2 < graph->drawn ? i + 1 : first;
     }
   }
-  g_autoptr(GArray) chain = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) chain = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   double area = 0, length = 0;
   for (guint i = 0; i < count; i++) {
     const guint end = cycle[(first + i) % count];
-    const SbCadPiece piece = piece_from(graph, end);
+    const SbPiece piece = piece_from(graph, end);
     if (end / 2 < graph->drawn) {
       area += area_of(&piece, piece_from(graph, cycle[0]).x0);
-      length += sb_cad_length(&piece);
+      length += sb_piece_length(&piece);
       g_array_append_val(chain, piece);
     }
   }
@@ -289,7 +288,7 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
     const guint own = outer->len;
     double area = 0;
     for (guint end = begin; face[end] == 0; end = next[end ^ 1U]) {
-      const SbCadPiece piece = piece_from(&graph, end);
+      const SbPiece piece = piece_from(&graph, end);
       face[end] = own;
       area += area_of(&piece, piece_from(&graph, begin).x0);
     }
@@ -352,7 +351,7 @@ void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double 
   g_autoptr(GArray) inner = add_boundary(half->outlines, half->alone, edges, gap);
   for (guint i = 0; i < inner->len; i++) {
     const Drawn *edge = &g_array_index(inner, Drawn, i);
-    const SbCadPiece *piece = &edge->piece;
+    const SbPiece *piece = &edge->piece;
     const bool sure = edge->times > 1 || (edge->inside[0] && edge->inside[1]) ||
                       (piece->bulge == 0 && fabs(piece->x1 - piece->x0) <= same);
     half->doubled -= edge->times - 1;

@@ -320,7 +320,7 @@ static bool print_edges(int face) {
   int of[2] = {2, face};
   gmshModelGetBoundary(of, 2, &edges, &count, 0, 0, 0, &ierr);
   bool good = ierr == 0;
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   for (size_t i = 0; good && i + 1 < count; i += 2) {
     Edge edge = {.tag = edges[i + 1]};
     double *low = NULL, *high = NULL;
@@ -343,7 +343,7 @@ static bool print_edges(int face) {
   written += pieces->len;
   good = good && written <= PIECES_MAX;
   for (guint i = 0; good && i < pieces->len; i++) {
-    const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+    const SbPiece *p = &g_array_index(pieces, SbPiece, i);
     print_numbers("piece", (double[]){p->x0, p->y0, p->x1, p->y1, p->bulge}, 5);
   }
   gmshFree(edges);

@@ -174,7 +174,7 @@ static void cross(double xu[2], const SbStl *stl, unsigned a, unsigned b, double
 // Cuts the facets of a body by the half-plane at `angle`.
 static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
   const double c = cos(angle), s = sin(angle);
-  GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   for (guint i = 0; i < shell->triangles->len; i++) {
     const unsigned *corner = (const unsigned *)(void *)shell->triangles->data + 3 * (gsize)i;
     double at[2][2];
@@ -190,7 +190,7 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {
-      const SbCadPiece piece = {at[0][0], at[0][1], at[1][0], at[1][1], 0};
+      const SbPiece piece = {at[0][0], at[0][1], at[1][0], at[1][1], 0};
       g_array_append_val(pieces, piece);
     }
   }

@@ -90,7 +90,7 @@ static bool read_numbers(double *out, int count, const char *text) {
 // Fills `cad` from the helper's lines; false where they are not complete.
 static bool take_text(SbCad *cad, char *text, GError **error) {
   g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)); // of `body`
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece)); // of `body`
   SbCadBody *body = NULL;
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
@@ -126,7 +126,7 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
     } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {
       body->why = sb_printable(line + 4, strlen(line + 4));
     } else if (g_str_has_prefix(line, "piece ") && read_numbers(n, 5, line + 6)) {
-      const SbCadPiece piece = {n[0], n[1], n[2], n[3], n[4]};
+      const SbPiece piece = {n[0], n[1], n[2], n[3], n[4]};
       g_array_append_val(pieces, piece);
     }
   }
