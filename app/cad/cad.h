@@ -99,6 +99,29 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbCad, sb_cad_free)
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error);
 
-// Returns the half-profile as the value of a part's `profile` key, in mm (app/cad/profile.h); NULL
-// if the profile is empty.
+// ---- Half-profiles as text, the value of the key [part.NAME] profile ----
+// A unit of length (any that udunits-2 knows), then x,r or x,r,bulge of each point, separated by
+// blanks or line ends:
+//
+//   mm 14,0 14,2.9 8,2.9 8,1.64
+//
+// x is axial, r the distance from the axis, bulge as in SbProfilePoint. A text that repeats its
+// first point is closed; another one is closed by the axis.
+
+// Example of such a text, for messages.
+#define SB_PROFILE_FORM "mm 0,0 10,0 10,2 0,2"
+
+// Returns the points [m] of a text, 2 to SB_PROFILE_MAX, as an array of SbProfilePoint to be freed
+// by g_array_unref(). *closed is set to whether the text repeats its first point, which the result
+// does not contain twice. NULL with SB_APP_ERROR_INPUT: no unit, not numbers, too few or too many
+// points. Orientation and crossings are not checked (sb_profile_check()).
+GArray *sb_profile_parse(const char *text, bool *closed, GError **error);
+
+// Orders the points (of SbProfilePoint) counter-clockwise in the (x, r) plane, as SbProfile
+// requires: reverses them in place, with their bulges, if they are clockwise. `closed`, as
+// sb_profile_parse() sets it: a piece from the last point to the first closes the outline; else the
+// axis closes it.
+void sb_profile_turn(GArray *points, bool closed);
+
+// Returns the half-profile of a body as such a text, in mm; NULL if the profile is empty.
 char *sb_cad_profile_text(const SbCadBody *body);

@@ -9,19 +9,6 @@
 // the clock without any use of the processor [s], after which it ends itself by SIGALRM.
 enum { SB_CAD_SECONDS_MAX = 60, SB_CAD_STALLED_MAX = 120 };
 
-// Returns the scalar product of two vectors.
-static inline double sb_cad_dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// Writes the vector product of `a` and `b`; `product` is neither of them.
-static inline void sb_cad_cross(double product[3], const double a[3], const double b[3]) {
-  for (int k = 0; k < 3; k++) {
-    const int next = (k + 1) % 3, last = (k + 2) % 3;
-    product[k] = a[next] * b[last] - a[last] * b[next];
-  }
-}
-
 // Writes the point of a curve at t in [0, 1] to `xy`.
 typedef void (*SbCadCurve)(const void *curve, double t, double xy[2]);
 

@@ -13,6 +13,8 @@
 //   end
 #include "app/cad/cad_private.h"
 
+#include "engine/mechanism/vector3.h"
+
 #include <gmshc.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
@@ -72,12 +74,12 @@ static void print_numbers(const char *word, const double *number, int count) {
 }
 
 // Moves the point to the one nearest to the origin; `oriented`: one sign of opposite directions.
-static void normalise(Axis *axis, bool oriented) {
+static void nearest_point(Axis *axis, bool oriented) {
   int largest = 0;
   for (int k = 1; k < 3; k++) {
     largest = fabs(axis->direction[k]) > fabs(axis->direction[largest]) + 1e-9 ? k : largest;
   }
-  const double along = sb_cad_dot(axis->point, axis->direction);
+  const double along = dot(axis->point, axis->direction);
   const double sign = oriented && axis->direction[largest] < 0 ? -1 : 1;
   for (int k = 0; k < 3; k++) {
     axis->point[k] -= along * axis->direction[k];
@@ -126,9 +128,9 @@ static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) 
   double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
   for (int j = 6 - count; j < 6; j++) {
     const double d[3] = {v[j], v[6 + j], v[12 + j]}, m[3] = {v[18 + j], v[24 + j], v[30 + j]};
-    const double square = sb_cad_dot(d, d);
+    const double square = dot(d, d);
     double turned[3];
-    sb_cad_cross(turned, d, m);
+    cross(turned, d, m);
     for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
       gram[k / 3][k % 3] += (k % 4 == 0) * square - d[k / 3] * d[k % 3];
     }
@@ -140,17 +142,17 @@ static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) 
     longest = fmax(longest, square);
   }
   if (count < 3) {
-    sb_cad_cross(p, axis->direction, moment);
+    cross(p, axis->direction, moment);
     // Without a rotation, an extruded face; with a pitch, a thread.
-    const bool turns = count == 2 || fabs(sb_cad_dot(axis->direction, moment)) < ZERO;
+    const bool turns = count == 2 || fabs(dot(axis->direction, moment)) < ZERO;
     return sqrt(longest) > ZERO && turns ? count : 0;
   }
   double det[3], across[3];
-  sb_cad_cross(det, gram[0], gram[1]);
-  const double whole = sb_cad_dot(det, gram[2]);
+  cross(det, gram[0], gram[1]);
+  const double whole = dot(det, gram[2]);
   for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
-    sb_cad_cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
-    p[k] = sb_cad_dot(across, sum) / whole;
+    cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
+    p[k] = dot(across, sum) / whole;
   }
   return whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
 }
@@ -172,10 +174,10 @@ static int axis_of(Axis *axis, int tag) {
     for (int k = 0; k < 3; k++) {
       q[i][k] -= centre[k];
     }
-    size = fmax(size, sqrt(sb_cad_dot(q[i], q[i])));
+    size = fmax(size, sqrt(dot(q[i], q[i])));
   }
   for (int i = 0; i < SAMPLES; i++) {
-    sb_cad_cross(a + 6 * (size_t)i, q[i], n[i]);
+    cross(a + 6 * (size_t)i, q[i], n[i]);
     for (int k = 0; k < 3; k++) {
       a[6 * i + k] /= size;
       a[6 * i + 3 + k] = n[i][k];
@@ -206,8 +208,8 @@ static int axis_of(Axis *axis, int tag) {
 static double apart(const double a[3], const Axis *axis) {
   const double d[3] = {a[0] - axis->point[0], a[1] - axis->point[1], a[2] - axis->point[2]};
   double off[3];
-  sb_cad_cross(off, d, axis->direction);
-  return sqrt(sb_cad_dot(off, off));
+  cross(off, d, axis->direction);
+  return sqrt(dot(off, off));
 }
 
 // Adds the area of a face to those about its axis.
@@ -224,7 +226,7 @@ static void count_face(Axis *axes, int *count, int tag, const double wish[3]) {
     axis.direction[j] = isnan(wish[0]) ? j == 0 : wish[j];
   }
   while (k < *count && (axes[k].ball != axis.ball ||
-                        fabs(sb_cad_dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
+                        fabs(dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
                         apart(axis.point, &axes[k]) > SAME)) {
     k++;
   }
@@ -252,7 +254,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
   gmshFree(faces);
   *best = (Axis){.ball = true};
   for (int k = 0; k < found; k++) {
-    const bool fits = !directed || fabs(sb_cad_dot(axes[k].direction, direction)) >= 1 - PARALLEL;
+    const bool fits = !directed || fabs(dot(axes[k].direction, direction)) >= 1 - PARALLEL;
     const bool better = axes[k].ball == best->ball ? axes[k].area > best->area : best->ball;
     *best = fits && better ? axes[k] : *best;
   }
@@ -273,7 +275,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
   if (pointed) {
     memcpy(best->point, through, sizeof best->point);
   }
-  normalise(best, !directed);
+  nearest_point(best, !directed);
   return best->area > 0 || mass > 0;
 }
 
@@ -284,8 +286,8 @@ static void place(int *bodies, size_t count, const Axis *axis, double angle) {
   check(ierr, "the bodies cannot be moved");
   const double x[3] = {1, 0, 0};
   double by[3];
-  sb_cad_cross(by, axis->direction, x);
-  const double sine = sqrt(sb_cad_dot(by, by));
+  cross(by, axis->direction, x);
+  const double sine = sqrt(dot(by, by));
   if (sine > 1e-15) {
     gmshModelOccRotate(bodies, count, 0, 0, 0, by[0] / sine, by[1] / sine, by[2] / sine,
                        atan2(sine, axis->direction[0]), &ierr);

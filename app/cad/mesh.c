@@ -7,6 +7,8 @@
 #include "app/base/unit.h"
 #include "app/cad/stl.h"
 
+#include "engine/mechanism/vector3.h"
+
 #include <math.h>
 #include <string.h>
 
@@ -125,14 +127,7 @@ static void frame_of(double frame[3][3], const double axis[3]) {
   for (int k = 0; k < 3; k++) {
     frame[1][k] = ((k == next) - off * frame[0][k]) / norm;
   }
-  sb_cad_cross(frame[2], frame[0], frame[1]);
-}
-
-static void turn_point(double point[3], const double frame[3][3]) {
-  const double old[3] = {point[0], point[1], point[2]};
-  for (int k = 0; k < 3; k++) {
-    point[k] = sb_cad_dot(frame[k], old);
-  }
+  cross(frame[2], frame[0], frame[1]);
 }
 
 // Turns and moves the mesh so that the axis is x. `through`: NULL, the middle of the box, unless
@@ -140,12 +135,11 @@ static void turn_point(double point[3], const double frame[3][3]) {
 static void place(SbStl *stl, const double frame[3][3], const double *through) {
   double low[3], high[3], to[3] = {0};
   for (gsize i = 0; i < stl->vertex_count; i++) {
-    turn_point(stl->vertices + 3 * i, frame);
+    turn(stl->vertices + 3 * i, frame[0], stl->vertices + 3 * i);
   }
   sb_stl_extent(stl->vertices, stl->vertex_count, low, high);
   if (through != NULL) {
-    memcpy(to, through, sizeof to);
-    turn_point(to, frame);
+    turn(to, frame[0], through);
   } else {
     for (int k = 1; k < 3; k++) {
       const double middle = 0.5 * (low[k] + high[k]);
@@ -161,7 +155,8 @@ static void place(SbStl *stl, const double frame[3][3], const double *through) {
 // The section -------------------------------------------------------------------------------------
 
 // Where an edge crosses the plane; from its lower vertex on, so that both facets find the same.
-static void cross(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c, double s) {
+static void cross_plane(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c,
+                        double s) {
   const double *p = stl->vertices + 3 * (gsize)MIN(a, b);
   const double *q = stl->vertices + 3 * (gsize)MAX(a, b);
   const double off = p[2] * c - p[1] * s;
@@ -186,7 +181,7 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
     }
     for (int k = 0; k < 3 && found < 2; k++) {
       if (behind[k] != behind[(k + 1) % 3]) {
-        cross(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
+        cross_plane(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {
@@ -287,9 +282,9 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     sb_note_add(cad->warnings, "%zu facets were inside out and are turned", stl->turned);
   }
   g_autofree char *name = g_path_get_basename(path);
-  char *dot = strrchr(name, '.');
-  if (dot != NULL && dot > name) {
-    *dot = '\0';
+  char *ending = strrchr(name, '.');
+  if (ending != NULL && ending > name) {
+    *ending = '\0';
   }
   for (guint i = 0; i < shells->len; i++) {
     g_autofree char *own = i > 0 ? g_strdup_printf("%s %u", name, i + 1) : g_strdup(name);

@@ -1,7 +1,6 @@
 // Pieces joined to outlines, and outlines made half-sections about the line y = 0.
 #include "app/base/number.h"
 #include "app/cad/cad_private.h"
-#include "app/cad/profile.h"
 
 #include <math.h>
 #include <string.h>

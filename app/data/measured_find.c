@@ -10,6 +10,8 @@
 // explains less than half of the squares a straight line leaves is none.
 #include "app/data/measured_private.h"
 
+#include "engine/numeric/dense.h"
+
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_double.h>
 
@@ -301,6 +303,112 @@ static void find_noise(SbMeasured *m) {
   }
 }
 
+// ---- Ramps ----
+
+enum { BINS = 160 };
+
+// Level, ramp, level on a common slope through means of the stroke's pieces.
+typedef struct {
+  double x[BINS], y[BINS], weight[BINS];
+  size_t count;
+} Means;
+
+static Means means_of(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
+  Means means = {0};
+  for (size_t i = begin; i < end; i++) {
+    const double share = (m->displacement[i] - low) / (high - low);
+    if (share >= 0 && share < 1) {
+      const int bin = (int)(share * BINS);
+      means.x[bin] += share;
+      means.y[bin] += m->force[i];
+      means.weight[bin]++;
+    }
+  }
+  for (int i = 0; i < BINS; i++) {
+    const double weight = means.weight[i];
+    if (weight > 0) {
+      means.x[means.count] = means.x[i] / weight;
+      means.y[means.count] = means.y[i] / weight;
+      means.weight[means.count++] = weight;
+    }
+  }
+  return means;
+}
+
+// Squares that y = a + b ramp + c x leaves, and the coefficients a, c, b; b = 0 where p = q.
+static double ramp_squares(double coefficient[3], const Means *of, double p, double q) {
+  const size_t n = q > p ? 3 : 2;
+  double a[9] = {0}, right[3] = {0}, square = 0;
+  for (size_t i = 0; i < of->count; i++) {
+    const double ramp = q > p ? fmin(fmax((of->x[i] - p) / (q - p), 0), 1) : 0;
+    const double term[3] = {1, of->x[i], ramp};
+    for (size_t r = 0; r < n; r++) {
+      for (size_t c = 0; c < n; c++) {
+        a[r + n * c] += of->weight[i] * term[r] * term[c];
+      }
+      right[r] += of->weight[i] * term[r] * of->y[i];
+    }
+    square += of->weight[i] * of->y[i] * of->y[i];
+  }
+  memcpy(coefficient, right, sizeof right);
+  if (!sb_eliminate(a, coefficient, n)) {
+    return INFINITY;
+  }
+  for (size_t k = 0; k < n; k++) {
+    square -= coefficient[k] * right[k];
+  }
+  return isfinite(square) ? fmax(square, 0) : INFINITY;
+}
+
+// The ramp of least squares; false where a straight line does nearly as well.
+static bool find_ramp(double *p, double *q, double coefficient[3], const Means *of) {
+  double best = INFINITY, trial[3];
+  *p = *q = 0;
+  for (double step = 1.0 / 40; step > 1e-4; step /= 4) {
+    const double centre[2] = {*p, *q};
+    const bool first = !isfinite(best);
+    const double from[2] = {first ? 0.03 : centre[0] - 4 * step,
+                            first ? 0.05 : centre[1] - 4 * step};
+    const double to[2] = {first ? 0.95 : centre[0] + 4 * step, first ? 0.97 : centre[1] + 4 * step};
+    for (double x = from[0]; x <= to[0]; x += step) {
+      for (double z = fmax(from[1], x + 0.004); z <= to[1]; z += step) {
+        const double square = ramp_squares(trial, of, x, z);
+        if (square < best) {
+          best = square;
+          *p = x;
+          *q = z;
+        }
+      }
+    }
+  }
+  const double line = ramp_squares(trial, of, 0, 0);
+  return isfinite(best) && best < 0.5 * line && isfinite(ramp_squares(coefficient, of, *p, *q));
+}
+
+// Finds the stages C and F of a cycle whose greatest displacement is `stroke` [m]: the upper ends
+// of its ramps, or the reason why there are none.
+static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
+  static const SbStage stages[2] = {SB_STAGE_C, SB_STAGE_F};
+  for (int way = 0; way < 2; way++) {
+    SbMeasuredStage *stage = &m->stage[stages[way]];
+    const double low = 0.02 * stroke, high = 0.98 * stroke;
+    const Means means = means_of(m, way == 0 ? cycle->begin : cycle->turn,
+                                 way == 0 ? cycle->turn : cycle->end, low, high);
+    double p, q, coefficient[3];
+    stage->reason = "the force does not fall between two levels there";
+    if (means.count < 20) {
+      stage->reason = "there are too few rows";
+    } else if (find_ramp(&p, &q, coefficient, &means) &&
+               (way == 0 ? coefficient[2] < 0 : coefficient[2] > 0)) {
+      const double at = way == 0 ? p : q;
+      *stage =
+          (SbMeasuredStage){true, low + at * (high - low),
+                            coefficient[0] + coefficient[1] * at + (way == 1 ? coefficient[2] : 0),
+                            m->noise / sqrt(fmax(means.count / 4.0, 1)), NULL};
+    }
+  }
+}
+
 // ---- Stages ----
 
 // How much higher the force can have become between a row and the next, where the stem slipped
@@ -369,7 +477,7 @@ static void find_stages(SbMeasured *m) {
   find_first_slip(m, cycle, stroke);
   find_stop(m, cycle, stroke);
   const double end = m->stage[SB_STAGE_D].found ? m->stage[SB_STAGE_D].displacement : stroke;
-  sb_measured_ramps(m, cycle, end);
+  find_ramps(m, cycle, end);
   m->stage[SB_STAGE_A].reason = "it is where the record begins";
 }
 

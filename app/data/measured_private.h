@@ -1,5 +1,5 @@
 // Interface between measured.c, which reads and scales the rows, measured_keys.c, measured_find.c
-// and measured_points.c.
+// and compare.c.
 #pragma once
 
 #include "app/data/measured.h"
@@ -22,7 +22,3 @@ char *sb_measured_layout(const SbMeasured *measured, bool units);
 // Writes the dialect that keys choose; members without a key stay 0. Returns false with an issue
 // for each text that is not known, also of the key `signal`.
 bool sb_measured_dialect(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues);
-
-// Finds the stages C and F of a cycle whose greatest displacement is `stroke` [m]: the upper ends
-// of its ramps, or the reason why there are none.
-void sb_measured_ramps(SbMeasured *measured, const SbMeasuredCycle *cycle, double stroke);
