@@ -15,7 +15,7 @@
 // follows "in", "/", "_" or a blank, or is in a line of units.
 //
 // An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
-// interpretations in the message. The bytes of the file are in memory until the table is freed.
+// interpretations in the message. The text is in memory until the table is freed.
 #pragma once
 
 #include "app/base/issue.h"
@@ -78,8 +78,8 @@ typedef struct {
 SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
                                 GPtrArray *issues);
 
-// As sb_text_table_open(), from the `length` bytes of a file, which are borrowed by the table;
-// `name` is used as the path in messages.
+// As sb_text_table_open(), from the `length` bytes of a file; `name` is used as the path in
+// messages.
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues);
 

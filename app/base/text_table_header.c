@@ -194,15 +194,17 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
          (count <= table->columns || texts == table->columns);
 }
 
-// Whether a quote that begins a cell is open at the end of line[count - 1], from at most 3 lines
+// Whether a quote that begins a cell is open at the end of line count - 1, from at most 3 lines
 // before.
-static bool is_open(GString *const *line, size_t count, char separator) {
+static bool is_open(const SbTextTable *table, size_t count) {
   const char *quote = NULL;
   const size_t least = count - MIN(count, 3);
-  while (count > least && (quote = strrchr(line[count - 1]->str, '"')) == NULL) {
+  while (count > least &&
+         (quote = strrchr(sb_text_table_line(table, count - 1)->str, '"')) == NULL) {
     count--;
   }
-  return quote != NULL && (quote == line[count - 1]->str || quote[-1] == separator);
+  return quote != NULL && (quote == sb_text_table_line(table, count - 1)->str ||
+                           quote[-1] == table->dialect.separator);
 }
 
 // Takes units, or names with units, from a header line.
@@ -265,15 +267,15 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
   block->headed = true;
 }
 
-void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count) {
+void sb_text_table_take_header(SbTextTable *table) {
   enum { LOOKED = 12 };
   bool named = false, united = false, stopped = false;
-  for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
+  for (size_t i = table->header_lines, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
     // A cell in quotes may have several lines.
-    g_autoptr(GString) all = g_string_new_len(line[i]->str, (gssize)line[i]->len);
-    for (; is_open(line, i, table->dialect.separator); i--) {
+    g_autoptr(GString) all = g_string_new(sb_text_table_line(table, i)->str);
+    for (; is_open(table, i); i--) {
       g_string_prepend_c(all, ' ');
-      g_string_prepend_len(all, line[i - 1]->str, (gssize)line[i - 1]->len);
+      g_string_prepend(all, sb_text_table_line(table, i - 1)->str);
     }
     const SbTextTableShape shape = sb_text_table_shape(all, &table->dialect);
     g_auto(GStrv) cells = sb_text_table_header_cells(table, all);
@@ -293,8 +295,8 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
     }
   }
   GPtrArray *texts = g_ptr_array_new();
-  for (size_t i = 0; i < MIN(count, HEADER_LINES); i++) {
-    g_autofree char *copy = g_strndup(line[i]->str, MIN(line[i]->len, HEADER_BYTES));
+  for (size_t i = 0; i < MIN(table->header_lines, HEADER_LINES); i++) {
+    g_autofree char *copy = g_strndup(sb_text_table_line(table, i)->str, HEADER_BYTES);
     char *text = copy + strspn(copy, "#;%!/ \t");
     g_strdelimit(text, "\t", ';');
     g_ptr_array_add(texts, sb_printable(text, strlen(text)));

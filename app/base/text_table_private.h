@@ -3,24 +3,6 @@
 
 #include "app/base/text_table.h"
 
-// The bytes of a table, read line by line. Text in UTF-16 has become UTF-8.
-typedef struct {
-  const char *start, *end, *at; // first byte, the one after the last, the next one to be read
-  SbTextTableEncoding encoding; // of the file
-  bool old;                     // neither UTF-8 nor UTF-16
-  char line_end;                // '\n', or '\r' for files without newlines
-  int number;        // of the line last read; the first one after sb_text_table_seek() is 1
-  GString *line;     // that line
-  const char *wrong; // why reading ended before the end of the bytes; NULL: it did not; static
-} SbTextTableLines;
-
-// Continues to read at byte `from`.
-void sb_text_table_seek(SbTextTableLines *lines, size_t from);
-
-// Returns the next line in UTF-8 without its end, borrowed until the next call. NULL at the end, or
-// with `wrong` set if a line is too long.
-const GString *sb_text_table_next(SbTextTableLines *lines);
-
 // A cell; borrowed from its line, not terminated by 0.
 typedef struct {
   const char *text;
@@ -86,14 +68,19 @@ typedef struct {
   bool headed;    // names or units were found behind the last row
 } SbTextTableBlock;
 
-// Where a table is read from.
+// The text of a table.
 typedef struct SbTextTableFile {
-  char *shown; // the file, for messages
-  SbTextTableLines lines;
-  char *owned;            // memory of the bytes; NULL: they are the caller's
+  char *shown;            // the file, for messages
+  GString *text;          // its lines in UTF-8, each with a terminating 0
+  GArray *line;           // of GString: views of these lines without their ends, read-only
   SbTextTableShape shape; // of its rows
   char *names;            // names and units above its rows; NULL: none
 } SbTextTableFile;
+
+// Returns line `index`, from 0.
+static inline const GString *sb_text_table_line(const SbTextTable *table, size_t index) {
+  return &g_array_index(table->file->line, GString, index);
+}
 
 // Returns whether a line has values where the rows of the table have them.
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
@@ -102,9 +89,8 @@ bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
 void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
                               const SbTextTable *table);
 
-// Fills the table's header, and names and units of its columns, from the lines line[count] (of
-// GString) above its rows.
-void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count);
+// Fills the table's header, and names and units of its columns, from the lines above its rows.
+void sb_text_table_take_header(SbTextTable *table);
 
 // Returns the cells of a header line as UTF-8, ended by NULL.
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line);

@@ -1,55 +1,8 @@
-// Reads the lines and rows of a table; see text_table.h.
+// Reads the rows of a table; see text_table.h.
 #include "app/base/text_table_private.h"
 
 #include <math.h>
 #include <string.h>
-
-// ---- Lines ----
-
-enum { LONGEST_LINE = 1 << 26 }; // [bytes]
-
-void sb_text_table_seek(SbTextTableLines *lines, size_t from) {
-  lines->at = lines->start + from;
-  lines->number = 0;
-}
-
-// Converts bytes of an old encoding; without one of their codes, each byte is a character.
-static void convert(GString *line, SbTextTableEncoding encoding) {
-  gsize length;
-  g_autofree char *old = g_strndup(line->str, line->len);
-  const gsize old_length = line->len;
-  const char *from = encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252"
-                     : encoding == SB_TEXT_TABLE_GBK  ? "GB18030"
-                                                      : "CP932";
-  g_autofree char *known = g_convert(old, (gssize)old_length, "UTF-8", from, NULL, &length, NULL);
-  g_string_truncate(line, 0);
-  g_string_append_len(line, known, known != NULL ? (gssize)length : 0);
-  for (gsize i = 0; known == NULL && i < old_length; i++) {
-    g_string_append_unichar(line, (guchar)old[i]);
-  }
-}
-
-const GString *sb_text_table_next(SbTextTableLines *lines) {
-  const char *from = lines->at, *stop = memchr(from, lines->line_end, (size_t)(lines->end - from));
-  stop = stop != NULL ? stop : lines->end;
-  lines->wrong = stop - from > LONGEST_LINE ? "has a line of more than 64 MiB" : lines->wrong;
-  if (from == lines->end || lines->wrong != NULL) {
-    return NULL;
-  }
-  lines->at = MIN(stop + 1, lines->end);
-  lines->number++;
-  while (stop > from && stop[-1] == '\r') {
-    stop--;
-  }
-  g_string_truncate(lines->line, 0);
-  g_string_append_len(lines->line, from, stop - from);
-  if (lines->old && !g_utf8_validate(from, stop - from, NULL)) {
-    convert(lines->line, lines->encoding); // programs mix encodings
-  }
-  return lines->line;
-}
-
-// ---- Rows ----
 
 // Converts times of day to seconds since midnight of the first row. add_days() returns false if it
 // is ambiguous whether a date advances by a day or by a month.
@@ -130,24 +83,21 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   *out = (SbTextTableRows){0};
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
-  SbTextTableLines *lines = &table->file->lines;
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
-  const GString *text;
-  // A row has two bytes at least. Memory that is not written to does not count.
-  const size_t room = MIN((size_t)(lines->end - lines->start) / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
-  size_t begun = 0; // blocks behind blank lines or names
+  const size_t lines = table->file->line->len, room = MIN(lines + 1, SB_TEXT_TABLE_ROWS_MAX);
+  size_t begun = 0, number = 0; // blocks behind blank lines or names; of the line
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
   }
   bool blank = false, cut = false, other = false;
-  sb_text_table_seek(lines, 0);
-  while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
+  while (wrong == NULL && number < lines) {
     Line line = {0};
-    if ((size_t)lines->number <= table->header_lines) {
+    const GString *text = sb_text_table_line(table, number++);
+    if (number <= table->header_lines) {
       if (sb_text_table_is_row(table, text)) {
-        leave_line(out, lines->number, text, false);
+        leave_line(out, (int)number, text, false);
       }
       continue;
     }
@@ -169,16 +119,15 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     } else if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
       const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
-      leave_line(out, lines->number, text, damaged);
+      leave_line(out, (int)number, text, damaged);
     }
   }
-  wrong = wrong != NULL ? wrong : lines->wrong;
   for (size_t k = 0; k < count; k++) { // freed where its size becomes 0
     value[k] = g_renew(double, value[k], wrong == NULL ? MAX(out->rows, 1) : 0);
   }
   if (wrong != NULL) {
     const bool date = wrong == ambiguous_date;
-    sb_issues_add_choice(issues, table->file->shown, lines->number, date ? "dates" : NULL,
+    sb_issues_add_choice(issues, table->file->shown, (int)number, date ? "dates" : NULL,
                          date ? "day-month\nmonth-day" : NULL, !date, "%s", wrong);
     g_clear_pointer(&out->left_text, g_free);
   }
@@ -211,14 +160,13 @@ static gssize append_cells(GArray *out, const GString *line, size_t columns, siz
 bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
-  SbTextTableLines *lines = &table->file->lines;
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
-  const GString *text;
   const char *wrong = NULL;
   bool good = true;
-  sb_text_table_seek(lines, 0);
-  while (good && wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
-    const bool above = (size_t)lines->number <= table->header_lines, headed = block.headed;
+  int number = 0;
+  while (good && wrong == NULL && (guint)number < table->file->line->len) {
+    const GString *text = sb_text_table_line(table, (size_t)number++);
+    const bool above = (size_t)number <= table->header_lines, headed = block.headed;
     const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;
     const guint begin = out->value->len;
     const bool data = text->len > 0 && strspn(text->str, "#%!") == 0;
@@ -228,18 +176,18 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
     }
     const bool other = above || g_strcmp0(block.names, table->file->names) != 0;
     if (count > 0 && other) {
-      out->other_line = out->other == 0 ? lines->number : out->other_line;
+      out->other_line = out->other == 0 ? number : out->other_line;
       out->other++;
     } else if (count > 0) {
       out->columns = out->rows == 0 ? (size_t)count : out->columns;
-      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines->number : out->ragged;
+      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? number : out->ragged;
       out->rows++;
     }
     g_array_set_size(out->value, other || count < 0 ? begin : out->value->len);
     if (!above && ((count < 0 && !block.headed) || (count > 0 && headed && !other))) {
       g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
       good = sb_issues_add(
-          issues, table->file->shown, lines->number, NULL, NULL,
+          issues, table->file->shown, number, NULL, NULL,
           count < 0 ? "numbers expected, not \"%s\"" : "begins the table again: \"%s\"", shown);
     } else if ((count > 0 && (size_t)count > most) || out->value->len > 3 * most) {
       wrong = "has too many numbers";
@@ -252,9 +200,8 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
         "%zu rows of numbers are another table than the %zu of the longest: remove one", out->other,
         out->rows);
   }
-  wrong = wrong != NULL ? wrong : lines->wrong;
   if (good && wrong != NULL) {
-    good = sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL, "%s", wrong);
+    good = sb_issues_add(issues, table->file->shown, number, NULL, NULL, "%s", wrong);
   }
   if (!good) {
     g_clear_pointer(&out->value, g_array_unref);
