@@ -140,8 +140,7 @@ static bool read_binary(GArray *corners, const char *data, gsize length, GError 
     // 12 bytes of normal come first; the corners' order gives it again.
     const double number = sb_bytes_float(data + HEADER + RECORD * (i / 9) + 12 + 4 * (i % 9));
     if (!isfinite(number)) {
-      return sb_app_error_input(
-          error, "triangle %" G_GSIZE_FORMAT " has a corner that is not a number", i / 9);
+      return sb_app_error_input(error, "triangle %zu has a corner that is not a number", i / 9);
     }
     g_array_append_val(corners, number);
   }
@@ -220,8 +219,7 @@ bool sb_cad_is_stl(const char *data, gsize length) {
 
 static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize length, GError **error) {
   if (!sb_cad_is_stl(data, length)) {
-    return sb_app_error_input(error, "not an STL file, or cut short (%" G_GSIZE_FORMAT " bytes)",
-                              length);
+    return sb_app_error_input(error, "not an STL file, or cut short (%zu bytes)", length);
   }
   out->text = !is_binary(data, length);
   if (!(out->text ? read_text : read_binary)(corners, data, length, error)) {

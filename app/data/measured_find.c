@@ -181,13 +181,9 @@ static void find_no_load(SbMeasured *m, const Rise *rise) {
   if (kept >= rise->begin + 5 &&
       m->displacement[kept] - m->displacement[rise->begin] > 0.01 * rise->range) {
     m->force_zero = SB_HOW_FOUND;
-    double sum = 0;
-    for (size_t i = rise->begin; i < kept; i++) {
-      sum += m->force[i];
-    }
-    m->no_load = sum / (double)(kept - rise->begin);
     m->no_load_row = rise->begin;
     m->no_load_rows = kept - rise->begin;
+    m->no_load = gsl_stats_mean(m->force + rise->begin, 1, m->no_load_rows);
   }
 }
 

@@ -7,20 +7,16 @@
 
 #include <math.h>
 
-bool sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, GError **error) {
-  const guint64 most = SB_HEIGHTS_POINTS_MAX;
+bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error) {
+  const size_t most = SB_HEIGHTS_POINTS_MAX;
   if (columns == 0 || rows == 0 || columns > most || rows > most / columns) {
-    return sb_app_error_input(error,
-                              "%" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT
-                              " points (allowed at most %" G_GUINT64_FORMAT ")",
-                              columns, rows, most);
+    return sb_app_error_input(error, "%zu x %zu points (allowed at most %zu)", columns, rows, most);
   }
-  out->heights.columns = out->heights.stride = (size_t)columns;
-  out->heights.rows = (size_t)rows;
-  out->heights.z = g_try_new(double, (gsize)(columns * rows));
+  out->heights.columns = out->heights.stride = columns;
+  out->heights.rows = rows;
+  out->heights.z = g_try_new(double, columns *rows);
   if (out->heights.z == NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for %" G_GUINT64_FORMAT " points",
-                columns * rows);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for %zu points", columns * rows);
   }
   return out->heights.z != NULL;
 }
@@ -36,17 +32,15 @@ static double number_at(const guchar *p, SbScanKind kind) {
                                  : sb_bytes_double(p);
 }
 
-bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
-                       SbScanBytes bytes, double scale, double missing, GError **error) {
+bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, SbScanKind kind, SbScanBytes bytes,
+                       double scale, double missing, GError **error) {
   static const guint8 sizes[SB_SCAN_KINDS] = {1, 2, 4, 4, 1, 2, 4, 8};
-  const guint64 room = (guint64)(bytes.end - bytes.at) / sizes[kind];
+  const size_t room = (size_t)(bytes.end - bytes.at) / sizes[kind];
   if (columns > 0 && rows > 0 && (columns > room || rows > room / columns)) {
-    return sb_app_error_input(
-        error, "is cut short: %" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT " points announced",
-        columns, rows);
+    return sb_app_error_input(error, "is cut short: %zu x %zu points announced", columns, rows);
   }
   const bool good = sb_scan_allocate(out, columns, rows, error);
-  for (guint64 i = 0; good && i < columns * rows; i++) {
+  for (size_t i = 0; good && i < columns * rows; i++) {
     const double value = number_at(bytes.at + i * sizes[kind], kind);
     out->heights.z[i] = value == missing || fabs(value) > 3.4e38 ? NAN : scale * value;
   }

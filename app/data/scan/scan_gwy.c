@@ -13,14 +13,14 @@ typedef struct {
   const char *name;
   char kind;
   const guchar *value; // begins here; of an array behind its count
-  guint64 count;       // of an array, or bytes of an object behind its head; 0: absent
+  size_t count;        // of an array, or bytes of an object behind its head; 0: absent
   const char *object;  // its class
 } Component;
 
 // Steps over `count` bytes and returns them; NULL if there are fewer.
-static const guchar *take(SbScanBytes *bytes, guint64 count) {
+static const guchar *take(SbScanBytes *bytes, size_t count) {
   const guchar *at = bytes->at;
-  if (count > (guint64)(bytes->end - at)) {
+  if (count > (size_t)(bytes->end - at)) {
     return NULL;
   }
   bytes->at += count;
@@ -29,12 +29,12 @@ static const guchar *take(SbScanBytes *bytes, guint64 count) {
 
 // A text with its end within the bytes; NULL without.
 static const char *take_text(SbScanBytes *bytes) {
-  const guint64 left = (guint64)(bytes->end - bytes->at);
-  const guint64 length = strnlen((const char *)bytes->at, left);
+  const size_t left = (size_t)(bytes->end - bytes->at);
+  const size_t length = strnlen((const char *)bytes->at, left);
   return length < left ? (const char *)take(bytes, length + 1) : NULL;
 }
 
-static bool take_count(SbScanBytes *bytes, guint64 *out) {
+static bool take_count(SbScanBytes *bytes, size_t *out) {
   const guchar *p = take(bytes, 4);
   *out = p != NULL ? sb_bytes_u32(p) : 0;
   return p != NULL;
@@ -43,7 +43,7 @@ static bool take_count(SbScanBytes *bytes, guint64 *out) {
 // Returns the class of an object and writes its content; NULL if it is not complete.
 static const char *take_object(SbScanBytes *bytes, SbScanBytes *content) {
   const char *name = take_text(bytes);
-  guint64 size;
+  size_t size;
   if (name == NULL || !take_count(bytes, &size)) {
     return NULL;
   }
@@ -63,7 +63,7 @@ static bool take_component(Component *out, SbScanBytes *bytes) {
   }
   out->kind = (char)*kind;
   const char one = g_ascii_tolower(out->kind), *number = memchr(numbers, one, sizeof sizes);
-  guint64 count = 1;
+  size_t count = 1;
   if (one != out->kind && !take_count(bytes, &count)) {
     return false;
   }
@@ -73,13 +73,13 @@ static bool take_component(Component *out, SbScanBytes *bytes) {
     return take(bytes, sizes[number - numbers] * count) != NULL;
   }
   const char *text = "";
-  for (guint64 k = 0; k < count && text != NULL; k++) {
+  for (size_t k = 0; k < count && text != NULL; k++) {
     SbScanBytes content = *bytes;
     text = one == 's' ? take_text(bytes) : one == 'o' ? take_object(bytes, &content) : NULL;
     if (out->kind == 'o' && text != NULL) {
       out->object = text;
       out->value = content.at;
-      out->count = (guint64)(content.end - content.at);
+      out->count = (size_t)(content.end - content.at);
     }
   }
   return text != NULL;
@@ -100,7 +100,7 @@ static bool find(Component *out, const Component *object, char kind, const char 
 // ---- Fields ----
 
 typedef struct {
-  guint64 columns, rows;
+  size_t columns, rows;
   double width, height;
   const char *unit_xy, *unit_z;
   const guchar *data; // of doubles
@@ -196,17 +196,15 @@ static bool apply_mask(SbScan *out, const Component *field, GError **error) {
   if (mask.rows != out->heights.rows || mask.columns != out->heights.columns) {
     return sb_app_error_input(error, "the mask has not the size of its data");
   }
-  guint64 masked = 0;
-  for (guint64 i = 0; i < mask.columns * mask.rows; i++) {
+  size_t masked = 0;
+  for (size_t i = 0; i < mask.columns * mask.rows; i++) {
     if (sb_bytes_double(mask.data + 8 * i) >= 0.5) {
       out->heights.z[i] = NAN;
       masked++;
     }
   }
   if (masked > 0) {
-    sb_note_add(out->notes,
-                "%" G_GUINT64_FORMAT " masked points are missing, unless masks are ignored",
-                masked);
+    sb_note_add(out->notes, "%zu masked points are missing, unless masks are ignored", masked);
   }
   return true;
 }
@@ -240,7 +238,7 @@ bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   if (g_strcmp0(class, "GwyContainer") != 0) {
     return sb_app_error_input(error, "contains no GwyContainer, or is cut short");
   }
-  const Component container = {.value = content.at, .count = (guint64)(content.end - content.at)};
+  const Component container = {.value = content.at, .count = (size_t)(content.end - content.at)};
   Component data, title = {0}, mask;
   const long id = choose(&data, &title, &container, choices->channel, error);
   if (id < 0 || !read_channel(out, &data, error)) {

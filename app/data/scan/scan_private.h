@@ -26,7 +26,7 @@ SbScanReader sb_scan_parse_sdf;
 // Allocates out->heights.z for a grid and sets columns, rows and stride. To be called once it is
 // known that the file has bytes for so many points. Returns false with an error if there are no
 // points, more than SB_HEIGHTS_POINTS_MAX, or no memory.
-bool sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, GError **error);
+bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error);
 
 // Kinds of little-endian numbers, numbered as the DataType of ISO 25178-71.
 typedef enum {
@@ -44,8 +44,8 @@ typedef enum {
 // Allocates and reads a grid from the first of `bytes`, row after row: heights are `scale` times
 // the numbers; the number `missing` (NaN: none) and those beyond single precision are missing
 // points. Returns false with an error of sb_scan_allocate(), or if there are too few bytes.
-bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
-                       SbScanBytes bytes, double scale, double missing, GError **error);
+bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, SbScanKind kind, SbScanBytes bytes,
+                       double scale, double missing, GError **error);
 
 // Returns the metres of a unit of length as files write it ("nm", "µm", "um", "mkm", "[nm]"); 0 for
 // any other text.

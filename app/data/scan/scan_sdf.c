@@ -49,6 +49,6 @@ bool sb_scan_parse_sdf(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
   out->heights.dy = value[Y_STEP];
   const SbScanKind kind = (SbScanKind)value[TYPE];
   const double least[SB_SCAN_KINDS] = {NAN, NAN, NAN, NAN, G_MININT8, G_MININT16, G_MININT32, NAN};
-  return sb_scan_take_grid(out, (guint64)value[COLUMNS], (guint64)value[ROWS], kind, bytes,
+  return sb_scan_take_grid(out, (size_t)value[COLUMNS], (size_t)value[ROWS], kind, bytes,
                            value[Z_STEP], least[kind], error);
 }

@@ -53,8 +53,8 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
       sb_bytes_u16(h + 86) != 0 ? (double)(gint32)sb_bytes_u32(h + 100) - 2 : NAN;
   if (!read_spacing(&step, h, 2, error) || !read_spacing(&out->heights.dx, h, 0, error) ||
       (rows > 1 && !read_spacing(&out->heights.dy, h, 1, error)) ||
-      !sb_scan_take_grid(out, (guint64)columns, (guint64)rows,
-                         bits == 16 ? SB_SCAN_I16 : SB_SCAN_I32, bytes, step, missing, error)) {
+      !sb_scan_take_grid(out, (size_t)columns, (size_t)rows, bits == 16 ? SB_SCAN_I16 : SB_SCAN_I32,
+                         bytes, step, missing, error)) {
     return false;
   }
   out->heights.dx = fabs(out->heights.dx);

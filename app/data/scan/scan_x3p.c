@@ -80,7 +80,7 @@ static zip_int64_t find_member(zip_t *zip, const char *path) {
 
 // A member's bytes and their number in *size; NULL with an error. Deflate packs at most 1032 to
 // one: more is announced by a bomb alone.
-static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most, guint64 packed,
+static guchar *member(zip_t *zip, const char *name, size_t *size, size_t most, size_t packed,
                       GError **error) {
   zip_stat_t about;
   const zip_int64_t at = find_member(zip, name);
@@ -90,8 +90,8 @@ static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most,
     return NULL;
   }
   if (about.size > most || about.size / 1100 > packed) {
-    sb_app_error_input(error, "\"%s\" is announced with %" G_GUINT64_FORMAT " bytes: too many",
-                       name, (guint64)about.size);
+    sb_app_error_input(error, "\"%s\" is announced with %zu bytes: too many", name,
+                       (size_t)about.size);
     return NULL;
   }
   guchar *out = g_try_malloc0(about.size + 1);
@@ -99,7 +99,7 @@ static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most,
   const zip_int64_t got = file != NULL ? zip_fread(file, out, about.size) : -1;
   // The check sum is looked at when there is no more.
   char end;
-  if (got < 0 || (guint64)got != about.size || zip_fread(file, &end, 1) != 0) {
+  if (got < 0 || (size_t)got != about.size || zip_fread(file, &end, 1) != 0) {
     sb_app_error_input(error, "\"%s\" cannot be unpacked", name);
     g_clear_pointer(&out, g_free);
   }
@@ -108,9 +108,9 @@ static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most,
   return out;
 }
 
-static bool read_main(GHashTable *texts, zip_t *zip, guint64 packed, GError **error) {
+static bool read_main(GHashTable *texts, zip_t *zip, size_t packed, GError **error) {
   static const GMarkupParser parser = {.text = on_text};
-  guint64 size = 0;
+  size_t size = 0;
   g_autofree char *xml = (char *)member(zip, "main.xml", &size, XML_MAX, packed, error);
   if (xml == NULL) {
     return false;
@@ -124,7 +124,7 @@ static bool read_main(GHashTable *texts, zip_t *zip, guint64 packed, GError **er
       return sb_app_error_input(error, "main.xml is not sound UTF-16");
     }
   }
-  const guint64 mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
+  const size_t mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
   g_autoptr(GMarkupParseContext) context =
       g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, texts, NULL);
   g_autoptr(GError) problem = NULL;
@@ -147,8 +147,7 @@ static bool read_step(double *out, GHashTable *texts, char axis, GError **error)
          sb_app_error_input(error, "C%c has no increment above 0", g_ascii_toupper(axis));
 }
 
-static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 packed,
-                        GError **error) {
+static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packed, GError **error) {
   static const char types[] = "ILFD";
   static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
   const char *link = text_of(texts, "record3/datalink/pointdatalink");
@@ -180,8 +179,8 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
     return sb_app_error_input(error, "CZ has the increment \"%s\"",
                               text_of(texts, "record1/axes/cz/increment"));
   }
-  const guint64 points = (guint64)columns * (guint64)rows;
-  guint64 got = 0, valid_got = 0;
+  const size_t points = (size_t)columns * (size_t)rows;
+  size_t got = 0, valid_got = 0;
   g_autofree guchar *data = member(zip, link, &got, 8 * points, packed, error);
   g_autofree guchar *valid = NULL;
   if (data == NULL) {
@@ -194,11 +193,11 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
       return valid != NULL && sb_app_error_input(error, "its valid points are cut short");
     }
   }
-  if (!sb_scan_take_grid(out, (guint64)columns, (guint64)rows, kinds[known - types],
+  if (!sb_scan_take_grid(out, (size_t)columns, (size_t)rows, kinds[known - types],
                          (SbScanBytes){data, data + got}, step, NAN, error)) {
     return false;
   }
-  for (guint64 i = 0; valid != NULL && i < points; i++) {
+  for (size_t i = 0; valid != NULL && i < points; i++) {
     out->heights.z[i] = (valid[i / 8] >> (i % 8) & 1) != 0 ? out->heights.z[i] : NAN;
   }
   return true;
@@ -206,7 +205,7 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
 
 bool sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
                        GError **error) {
-  const guint64 packed = (guint64)(bytes.end - bytes.at);
+  const size_t packed = (size_t)(bytes.end - bytes.at);
   out->format = "X3P";
   zip_error_t problem;
   zip_error_init(&problem);
