@@ -2,6 +2,7 @@
 #include "app/cad/cad_private.h"
 
 #include <math.h>
+#include <stdlib.h>
 
 // Pairs of pieces that are close together and compared.
 enum { NEAR_MAX = 1000000 };
@@ -68,8 +69,7 @@ static bool is_same(const Drawn *a, const Drawn *b, double same) {
 // along them; pieces that are one are counted in `times`. Of more than NEAR_MAX pairs of pieces
 // that are close together, the first are compared.
 static GArray *tidied(const GArray *pieces, double same) {
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(Drawn));
-  GArray *out = g_array_new(FALSE, FALSE, sizeof(Drawn));
+  GArray *all = g_array_new(FALSE, FALSE, sizeof(Drawn));
   for (guint i = 0; i < pieces->len; i++) {
     const Drawn drawn = drawn_of(g_array_index(pieces, SbPiece, i));
     if (2 * drawn.reach > TINY) {
@@ -95,32 +95,26 @@ static GArray *tidied(const GArray *pieces, double same) {
       }
     }
   }
-  for (guint i = 0; i < all->len; i++) {
-    if (g_array_index(all, Drawn, i).times > 0) {
-      g_array_append_val(out, g_array_index(all, Drawn, i));
+  for (guint i = all->len; i-- > 0;) {
+    if (g_array_index(all, Drawn, i).times == 0) {
+      g_array_remove_index(all, i);
     }
   }
-  return out;
+  return all;
 }
 
 // Edge i has the ends 2 i and 2 i + 1. An end is also the name of its edge when left from there.
 typedef struct {
   GArray *edges; // of Drawn; those from `drawn` on are on the axis
   guint drawn;
-  guint *node, *next; // of an end: the first end at its point, and the next one in a ring of those
+  guint *node, *next; // of an end: the first end at its point; the next one, counter-clockwise
+  guint *ends;        // of a node: number of its ends
 } Graph;
 
 // Returns the edge as it is left from an end.
 static SbPiece piece_from(const Graph *graph, guint end) {
   const SbPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
   return end % 2 == 0 ? piece : reversed(piece);
-}
-
-// Makes the end `other`, which is alone at its point, one of those at the point of `end`.
-static void join_end(Graph *graph, guint other, guint end) {
-  graph->node[other] = graph->node[end];
-  graph->next[other] = graph->next[end];
-  graph->next[end] = other;
 }
 
 // Joins the ends at one point, and each end off the axis that is then alone to the nearest one
@@ -134,9 +128,7 @@ static void join_ends(Graph *graph, double gap, GArray *alone) {
     const bool itself = sb_piece_length(&piece) > 2 * gap; // the gap of an arc
     double nearest = first ? TINY * TINY : gap * gap;
     guint best = count;
-    if (first) {
-      graph->node[end] = graph->next[end] = end;
-    } else if (piece.y0 == 0 || graph->next[end] != end) {
+    if (!first && (piece.y0 == 0 || graph->ends[graph->node[end]] > 1)) {
       continue;
     }
     for (guint k = 0; k < (first ? end : count); k++) {
@@ -147,9 +139,10 @@ static void join_ends(Graph *graph, double gap, GArray *alone) {
         best = k;
       }
     }
-    if (best < count) {
-      join_end(graph, end, best);
-    } else if (!first) {
+    if (best < count || first) {
+      graph->node[end] = best < count ? graph->node[best] : end;
+      graph->ends[graph->node[end]]++;
+    } else {
       g_array_append_vals(alone, &piece, 1);
     }
   }
@@ -169,12 +162,8 @@ static void close_by_axis(Graph *graph) {
     }
   }
   for (guint end = 0; end < count; end++) {
-    const guint own = part[end] = part[graph->node[end]];
-    guint ends = 1;
-    for (guint k = graph->next[end]; k != end; k = graph->next[k]) {
-      ends++;
-    }
-    open[own] = open[own] || (piece_from(graph, end).y0 == 0 && ends % 2 == 1);
+    const guint node = graph->node[end], own = part[end] = part[node];
+    open[own] = open[own] || (piece_from(graph, end).y0 == 0 && graph->ends[node] % 2 == 1);
     g_array_index(graph->edges, Drawn, end / 2).part = own;
   }
   for (guint end = 0; end < count; end++) {
@@ -192,51 +181,47 @@ static void close_by_axis(Graph *graph) {
     if (best < count) {
       const Drawn axis = drawn_of((SbPiece){from.x0, 0, x, 0, 0});
       g_array_append_val(graph->edges, axis);
-      join_end(graph, 2 * graph->edges->len - 2, end);
-      join_end(graph, 2 * graph->edges->len - 1, best);
+      graph->node[2 * graph->edges->len - 2] = end;
+      graph->node[2 * graph->edges->len - 1] = graph->node[best];
     }
   }
 }
 
-static gint compare_angles(gconstpointer a, gconstpointer b, gpointer angles) {
-  const double *angle = angles, x = angle[*(const guint *)a], y = angle[*(const guint *)b];
-  return (x > y) - (x < y);
+// An end, its point, and its direction at a small distance, where tangent edges differ.
+typedef struct {
+  guint end, node;
+  double angle;
+} Direction;
+
+static gint compare_directions(gconstpointer a, gconstpointer b) {
+  const Direction *p = a, *q = b;
+  return p->node != q->node ? (p->node > q->node) - (p->node < q->node)
+                            : (p->angle > q->angle) - (p->angle < q->angle);
 }
 
-// Orders the ends at each point counter-clockwise, by directions at a small distance, where tangent
-// edges differ. The boundary of a face, on its right, then goes on from the edge left from `end`
-// with that left from next[end ^ 1].
+// Orders the ends at each point counter-clockwise. The boundary of a face, on its right, then goes
+// on from the edge left from `end` with that left from next[end ^ 1].
 static void turn_ends(const Graph *graph) {
   const guint count = 2 * graph->edges->len;
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(guint));
-  g_autofree double *angle = g_new0(double, count + 1);
+  g_autofree Direction *all = g_new0(Direction, count + 1);
+  g_autofree double *near = g_new0(double, count + 1); // of a node: 1 / least reach of its edges
   for (guint end = 0; end < count; end++) {
-    double near = INFINITY;
-    g_array_set_size(all, 0);
-    for (guint k = end; graph->node[end] == end && (k != end || all->len == 0);
-         k = graph->next[k]) {
-      g_array_append_val(all, k);
-      near = fmin(near, g_array_index(graph->edges, Drawn, k / 2).reach);
-    }
-    for (guint i = 0; i < all->len; i++) {
-      const guint own = g_array_index(all, guint, i);
-      const SbPiece piece = piece_from(graph, own);
-      double at[2];
-      sb_piece_point(&piece, near / sb_piece_length(&piece), at);
-      angle[own] = atan2(at[1] - piece.y0, at[0] - piece.x0);
-    }
-    g_array_sort_with_data(all, compare_angles, angle);
-    for (guint i = 0; i < all->len; i++) {
-      graph->next[g_array_index(all, guint, i)] = g_array_index(all, guint, (i + 1) % all->len);
-    }
+    double *least = &near[graph->node[end]];
+    *least = fmax(*least, 1 / g_array_index(graph->edges, Drawn, end / 2).reach);
   }
-}
-
-// Twice the area between a piece and the point (x, 0), positive if it is on the left of the piece.
-static double area_of(const SbPiece *p, double x) {
-  const SbArc arc = p->bulge != 0 ? sb_piece_arc(p) : (SbArc){0};
-  return (p->x0 - x) * p->y1 - (p->x1 - x) * p->y0 +
-         arc.radius * arc.radius * (arc.sweep - sin(arc.sweep));
+  for (guint end = 0; end < count; end++) {
+    const SbPiece piece = piece_from(graph, end);
+    const guint node = graph->node[end];
+    double at[2];
+    sb_piece_point(&piece, 1 / near[node] / sb_piece_length(&piece), at);
+    all[end] = (Direction){end, node, atan2(at[1] - piece.y0, at[0] - piece.x0)};
+  }
+  qsort(all, count, sizeof *all, compare_directions);
+  for (guint i = 0, first = 0; i < count; i++) {
+    const bool last = all[i + 1].node != all[i].node || i + 1 == count;
+    graph->next[all[i].end] = all[last ? first : i + 1].end;
+    first = last ? i + 1 : first;
+  }
 }
 
 // Appends a cycle of edges without its edges on the axis as an outline, unless it has no area: it
@@ -257,12 +242,12 @@ static void add_outline(GPtrArray *outlines, const Graph *graph, const guint *cy
     const guint end = cycle[(first + i) % count];
     const SbPiece piece = piece_from(graph, end);
     if (end / 2 < graph->drawn) {
-      area += area_of(&piece, piece_from(graph, cycle[0]).x0);
+      area += sb_piece_area(&piece, piece_from(graph, cycle[0]).x0);
       length += sb_piece_length(&piece);
       g_array_append_val(chain, piece);
     }
   }
-  if (fabs(area) > 2 * gap * length) {
+  if (fabs(area) > gap * length) {
     SbCadOutline *outline = g_new(SbCadOutline, 1);
     const guint own = cycle[first % count] / 2;
     *outline = (SbCadOutline){g_steal_pointer(&chain), closed,
@@ -277,9 +262,10 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
   const gsize most = 6 * (gsize)edges->len + 1; // ends, with those of edges on the axis
   g_autofree guint *node = g_new0(guint, most), *next = g_new0(guint, most);
   g_autofree guint *face = g_new0(guint, most), *place = g_new0(guint, most);
+  g_autofree guint *ends = g_new0(guint, most);
   g_autoptr(GArray) outer = g_array_new(FALSE, TRUE, sizeof(bool));
   g_autoptr(GArray) cycle = g_array_new(FALSE, FALSE, sizeof(guint));
-  Graph graph = {edges, edges->len, node, next};
+  Graph graph = {edges, edges->len, node, next, ends};
   join_ends(&graph, gap, alone);
   close_by_axis(&graph);
   turn_ends(&graph);
@@ -290,7 +276,7 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
     for (guint end = begin; face[end] == 0; end = next[end ^ 1U]) {
       const SbPiece piece = piece_from(&graph, end);
       face[end] = own;
-      area += area_of(&piece, piece_from(&graph, begin).x0);
+      area += sb_piece_area(&piece, piece_from(&graph, begin).x0);
     }
     if (face[begin] != own) {
       continue;
@@ -326,11 +312,10 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
 }
 
 void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, double same) {
-  g_autoptr(GArray) all = tidied(pieces, same);
-  g_autoptr(GArray) edges = g_array_new(FALSE, FALSE, sizeof(Drawn));
-  for (guint i = 0; i < all->len; i++) {
-    if (g_array_index(all, Drawn, i).times % 2 == 1) {
-      g_array_append_val(edges, g_array_index(all, Drawn, i));
+  g_autoptr(GArray) edges = tidied(pieces, same);
+  for (guint i = edges->len; i-- > 0;) {
+    if (g_array_index(edges, Drawn, i).times % 2 == 0) {
+      g_array_remove_index(edges, i);
     }
   }
   for (guint count = 0; count != edges->len;) {

@@ -147,9 +147,12 @@ static void moments_of(Moments *m, const SbProfile *p, double origin) {
 }
 
 double sb_profile_area(const SbProfile *p) {
-  Moments m;
-  moments_of(&m, p, p->point[0].x);
-  return m.area;
+  double area = 0.0;
+  for (size_t i = 0; i < pieces_of(p); i++) {
+    const SbPiece piece = piece_at(p, i, p->point[0].x);
+    area += sb_piece_area(&piece, 0.0);
+  }
+  return area;
 }
 
 // Whether an outline turns once about a point.

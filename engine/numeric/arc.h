@@ -76,3 +76,11 @@ static inline double sb_piece_place(const SbPiece *piece, double x, double y, do
   *off = fabs(hypot(u, v) - arc.radius);
   return part < 0.5 - 0.5 * once ? part + once : part > 0.5 + 0.5 * once ? part - once : part;
 }
+
+// Returns the area between a piece and the straight lines from its ends to (x, 0); positive if that
+// point is on the left of the piece. Those of a closed outline add up to its area.
+static inline double sb_piece_area(const SbPiece *piece, double x) {
+  const SbArc arc = piece->bulge != 0.0 ? sb_piece_arc(piece) : (SbArc){0};
+  return 0.5 * ((piece->x0 - x) * piece->y1 - (piece->x1 - x) * piece->y0 +
+                arc.radius * arc.radius * (arc.sweep - sin(arc.sweep)));
+}
