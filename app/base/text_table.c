@@ -6,9 +6,6 @@
 #include "app/base/reader.h"
 #include "app/base/text_table_private.h"
 
-#include <math.h>
-#include <string.h>
-
 // Lines that are looked at.
 typedef struct {
   GArray *line; // of GString

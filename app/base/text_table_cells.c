@@ -2,11 +2,7 @@
 #include "app/base/number.h"
 #include "app/base/text_table_private.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
-
-// ---- Cells ----
 
 static bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -90,8 +86,6 @@ size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t lengt
   }
   return count;
 }
-
-// ---- Numbers ----
 
 // Returns the length of the first of the texts with which [c, end) begins; 0: none.
 static size_t skip_one(const char *c, const char *end, const char *const *texts) {
@@ -197,8 +191,6 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
   }
   return true;
 }
-
-// ---- Clocks ----
 
 bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
   static const char form[] = "^(?:(\\d{1,4})([./-])(\\d\\d?)\\2(\\d{1,4})[ T])?(\\d\\d?):"

@@ -2,11 +2,7 @@
 #include "app/base/number.h"
 #include "app/base/text_table_private.h"
 
-#include <string.h>
-
 enum { HEADER_LINES = 1000, HEADER_BYTES = 4096 };
-
-// ---- Units ----
 
 static const struct {
   const char *unit, *all; // all spellings between bars
@@ -58,8 +54,6 @@ static bool is_unit(const char *text) {
   }
   return all;
 }
-
-// ---- Names ----
 
 // "Force [N]", "Kraft / N", "load_N", "x in µm" -> name and unit. Both owned by the caller.
 static void split_name(char **name, char **unit, const char *text) {

@@ -3,6 +3,9 @@
 
 #include "app/base/text_table.h"
 
+#include <math.h>
+#include <string.h>
+
 // A cell; borrowed from its line, not terminated by 0.
 typedef struct {
   const char *text;

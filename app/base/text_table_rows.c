@@ -1,9 +1,6 @@
 // Reads the rows of a table; see text_table.h.
 #include "app/base/text_table_private.h"
 
-#include <math.h>
-#include <string.h>
-
 // Converts times of day to seconds since midnight of the first row. add_days() returns false if it
 // is ambiguous whether a date advances by a day or by a month.
 typedef struct {

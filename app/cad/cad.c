@@ -1,13 +1,6 @@
 // See cad.h.
 #include "app/cad/cad_private.h"
 
-#include "app/base/error.h"
-#include "app/base/number.h"
-#include "app/base/unit.h"
-
-#include <math.h>
-#include <string.h>
-
 SbCadBody *sb_cad_body_new(const char *name) {
   SbCadBody *body = g_new0(SbCadBody, 1);
   body->name = g_strdup(name);

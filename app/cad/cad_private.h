@@ -1,9 +1,15 @@
 // Shared by the readers of DXF, STEP and STL.
 #pragma once
 
+#include "app/base/error.h"
+#include "app/base/number.h"
+#include "app/base/unit.h"
 #include "app/cad/cad.h"
 
 #include "engine/numeric/arc.h"
+
+#include <math.h>
+#include <string.h>
 
 // Processor time that sealbench-cad may use for one file [s], after which SIGXCPU ends it; time on
 // the clock without any use of the processor [s], after which it ends itself by SIGALRM.

@@ -1,8 +1,6 @@
 // Curves as straight pieces and arcs. Also compiled into sealbench-cad.
 #include "app/cad/cad_private.h"
 
-#include <math.h>
-
 // Depth of the division, pieces of a curve, and points at which a piece is compared with the curve.
 enum { DEPTH_MAX = 12, PIECES_MAX = 20000, POINTS = 9 };
 

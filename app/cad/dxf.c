@@ -6,12 +6,8 @@
 //
 // LINE, ELLIPSE, SPLINE and 3D polylines are in world coordinates. The others are in object
 // coordinates, whose x is reversed if the extrusion direction is (0, 0, -1).
-#include "app/base/error.h"
-#include "app/base/unit.h"
 #include "app/cad/dxf_private.h"
 #include "app/cad/dxf_words.def"
-
-#include <math.h>
 
 // Pieces, entities read, entities placed and layers with pieces of a file; nested blocks, of which
 // one may contain itself; different entities left out.

@@ -1,11 +1,6 @@
 // Entities of a DXF: their pairs of a group code and a value, and their curves as pieces.
 #include "app/cad/dxf_private.h"
 
-#include "app/base/error.h"
-#include "app/base/number.h"
-
-#include <math.h>
-
 // Control points of a spline and its degree; values of a list.
 enum { CONTROL_MAX = 2000, DEGREE_MAX = 15, POINTS_MAX = 100000 };
 
@@ -51,8 +46,6 @@ bool sb_dxf_number(const SbDxfReader *reader, double *out, GError **error) {
          sb_app_error_input(error, "line %d: '%s' is not a number here", reader->next.line,
                             reader->value);
 }
-
-// ---- Entities ----
 
 void sb_dxf_entity_clear(SbDxfEntity *entity) {
   for (int i = 0; i < SB_DXF_LISTS; i++) {
@@ -146,8 +139,6 @@ bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error
 static double at(const GArray *list, guint i) {
   return i < list->len ? g_array_index(list, double, i) : 0;
 }
-
-// ---- Curves, placed [m] ----
 
 static void map(const SbDxfMap *way, double x, double y, double xy[2]) {
   xy[0] = way->a * x + way->b * y + way->c;

@@ -3,8 +3,6 @@
 
 #include "app/cad/cad_private.h"
 
-#include <string.h>
-
 // Where a pair begins in the text; `line` is the number of lines before it.
 typedef struct {
   const char *at;

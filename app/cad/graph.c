@@ -1,7 +1,6 @@
 // The plane graph of the pieces of a layer, and the outlines that bound its faces.
 #include "app/cad/cad_private.h"
 
-#include <math.h>
 #include <stdlib.h>
 
 // Pairs of pieces that are close together and compared.

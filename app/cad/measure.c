@@ -10,7 +10,6 @@
 
 #include <gmshc.h>
 
-#include <math.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>

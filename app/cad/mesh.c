@@ -3,14 +3,9 @@
 // through a vertex that is farthest from the axis, where diameters are those of the vertices.
 #include "app/cad/cad_private.h"
 
-#include "app/base/error.h"
-#include "app/base/unit.h"
 #include "app/cad/stl.h"
 
 #include "engine/mechanism/vector3.h"
-
-#include <math.h>
-#include <string.h>
 
 // Sides that a valve's part may have [m]; how far the half-plane is from the vertex, so that no
 // vertex is on it [rad]; a piece that is none [m]; how much more volume another half-plane must
@@ -58,8 +53,6 @@ static const char *guess_unit(double side, GError **error) {
   return count == 1 ? found : NULL;
 }
 
-// Shells ------------------------------------------------------------------------------------------
-
 static void shell_free(gpointer data) {
   g_array_unref(((Shell *)data)->triangles);
   g_free(data);
@@ -100,8 +93,6 @@ static bool measure(const SbStl *stl, const GPtrArray *shells, GError **error) {
   }
   return true;
 }
-
-// The axis ----------------------------------------------------------------------------------------
 
 // Writes the axis about which the bodies are closest to bodies of revolution.
 static void find_mesh_axis(double axis[3], const GPtrArray *shells) {
@@ -151,8 +142,6 @@ static void place(SbStl *stl, const double frame[3][3], const double *through) {
     stl->vertices[3 * i + 2] -= to[2];
   }
 }
-
-// The section -------------------------------------------------------------------------------------
 
 // Where an edge crosses the plane; from its lower vertex on, so that both facets find the same.
 static void cross_plane(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c,

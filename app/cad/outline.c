@@ -1,9 +1,5 @@
 // Pieces joined to outlines, and outlines made half-sections about the line y = 0.
-#include "app/base/number.h"
 #include "app/cad/cad_private.h"
-
-#include <math.h>
-#include <string.h>
 
 // The largest distance between pieces that are drawn twice; of a circle from the pieces that follow
 // it, and of a line; ends that are one point where a body is cut; difference of halves that is
@@ -154,8 +150,6 @@ static void outline_free(gpointer data) {
   g_array_unref(((SbCadOutline *)data)->chain);
   g_free(data);
 }
-
-// ---- Bodies ----
 
 // Warns about the ends of open chains: the largest distance from an end to the axis or the nearest
 // other one is what `join` would have to bridge.

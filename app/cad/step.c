@@ -2,14 +2,9 @@
 // on the clock has no influence: a loaded machine reads what an idle one reads.
 #include "app/cad/cad_private.h"
 
-#include "app/base/error.h"
-#include "app/base/number.h"
-
 #include <gio/gio.h>
 
-#include <math.h>
 #include <signal.h>
-#include <string.h>
 
 enum { TEXT_MAX = 64 << 20 };
 

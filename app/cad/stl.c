@@ -3,18 +3,12 @@
 
 #include "app/base/bytes.h"
 #include "app/base/reader.h"
-#include "app/base/unit.h"
 #include "app/cad/cad_private.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { HEADER = 84, RECORD = 50 };
 
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
 static const size_t length_max = (size_t)SB_STL_TRIANGLES_MAX * 512;
-
-// ---- welding ----
 
 // Part of the box's diagonal within which corners are one: what six digits of text leave open.
 static const double WELD = 1e-5;
@@ -111,8 +105,6 @@ static void weld(SbStl *out, const double *corners, gsize triangles, double tole
   }
 }
 
-// ---- binary ----
-
 // Whether the length of a file fits the number of triangles in a binary header; a few bytes behind
 // them are ignored. Binary files may start with "solid" too.
 static bool is_binary(const char *data, gsize length) {
@@ -134,8 +126,6 @@ static bool read_binary(GArray *corners, const char *data, gsize length, GError 
   }
   return true;
 }
-
-// ---- text ----
 
 typedef struct {
   const char *at, *end;

@@ -4,11 +4,6 @@
 #include "app/base/figure_text.h"
 #include "app/data/measured_private.h"
 
-#include <math.h>
-#include <string.h>
-
-// ---- The run's loop ----
-
 static void add(SbLoop *loop, int way, double displacement, double force) {
   size_t *count = &loop->count[way];
   const double last = *count > 0 ? loop->displacement[way][*count - 1] : way ? INFINITY : -INFINITY;
@@ -74,8 +69,6 @@ double sb_loop_force(const SbLoop *loop, int way, double displacement) {
   return force[low] + t * (force[high] - force[low]);
 }
 
-// ---- Measured rows ----
-
 // Whether a row is of a sliding stem, and in which way. A stem that jams on its return rests where
 // the cycle ends, while the force falls.
 static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
@@ -137,8 +130,6 @@ void sb_measured_band(SbMeasuredBand *out, const SbMeasured *m) {
     }
   }
 }
-
-// ---- Differences ----
 
 SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop) {
   SbComparison *out = g_new0(SbComparison, 1);

@@ -3,9 +3,6 @@
 
 #include "app/base/number.h"
 
-#include <math.h>
-#include <string.h>
-
 #define SPEED_MAX 10.0                                        // of a test machine [m/s]
 enum { ROWS_MIN = 8 };                                        // of a loop
 #define CYCLE "cy[ck]l|zykl|ciclo|\\bloop|цикл|循环|サイクル" // in a line above a cycle

@@ -15,9 +15,6 @@
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_double.h>
 
-#include <math.h>
-#include <string.h>
-
 enum { LOOKED = 20000 };
 
 // Median force of at most LOOKED of the rows of [begin, end) with a displacement in [low, high].

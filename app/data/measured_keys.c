@@ -1,9 +1,6 @@
 // Keys of measured data: reads what they choose, and writes what was recognised; see measured.h.
 #include "app/data/measured_private.h"
 
-#include <math.h>
-#include <string.h>
-
 // Characters of the keys `separator` and `decimal`; the first one, of an absent key, is to be
 // recognised.
 static const char separators[] = "\0,;\t| ", decimals[] = "\0.,";

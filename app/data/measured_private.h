@@ -4,6 +4,9 @@
 
 #include "app/data/measured.h"
 
+#include <math.h>
+#include <string.h>
+
 // Second half of reading a file. On entry `measured` has its columns and rows in SI as the file has
 // them: count, time, displacement (crosshead reading) and force; all later fields are 0. Reverses
 // signs, finds cycles (creates measured->cycle), zero, compliance and noise, corrects the rows in

@@ -5,8 +5,6 @@
 #include "app/base/unit.h"
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
-
 bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error) {
   const size_t most = SB_HEIGHTS_POINTS_MAX;
   if (columns == 0 || rows == 0 || columns > most || rows > most / columns) {

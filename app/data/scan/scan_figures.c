@@ -8,8 +8,6 @@
 #include <math.h>
 #include <string.h>
 
-// ---- Cut-offs ----
-
 static void add_cutoff(SbScanFigures *out, double cutoff_short, double cutoff_long) {
   if (out->cutoff_count < SB_SCAN_CUTOFFS_MAX) {
     SbScanCutoff *row = &out->cutoff[out->cutoff_count++];
@@ -33,8 +31,6 @@ static void find_cutoffs(SbScanFigures *out, const SbHeights *h) {
     add_cutoff(out, 0, cutoff);
   }
 }
-
-// ---- Parts ----
 
 static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *report) {
   enum { PART_SIDE = 64 };
@@ -62,8 +58,6 @@ SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
   return count < 2 ? (SbScanScatter){NAN, NAN}
                    : (SbScanScatter){gsl_stats_mean(each, 1, count), gsl_stats_sd(each, 1, count)};
 }
-
-// ---- What to be warned of ----
 
 // Share of m4 in waves of fewer points than this.
 static double fine_share(const SbHeightSpectrum *spectrum, double step, double points) {

@@ -4,7 +4,6 @@
 // and "/N/mask", whose points of 0.5 and more are missing; everything else is stepped over.
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
 #include <stdio.h>
 
 enum { CHANNELS_MAX = 1024, COMPONENTS_MAX = 100000 };
@@ -97,8 +96,6 @@ static bool find(Component *out, const Component *object, char kind, const char 
   return false;
 }
 
-// ---- Fields ----
-
 typedef struct {
   size_t columns, rows;
   double width, height;
@@ -128,8 +125,6 @@ static bool read_field(Field *out, const Component *field, GError **error) {
   out->data = data.value;
   return true;
 }
-
-// ---- Channels ----
 
 // Finds "/ID/NAME" in the container.
 static bool find_of(Component *out, const Component *container, char kind, long id,

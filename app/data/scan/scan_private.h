@@ -6,6 +6,9 @@
 #include "app/base/text_table.h"
 #include "app/data/scan/scan.h"
 
+#include <math.h>
+#include <string.h>
+
 // The bytes of a file that are not read yet.
 typedef struct {
   const guchar *at, *end; // first byte, and the one after the last

@@ -5,8 +5,6 @@
 // compressed data and the check sum.
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
-
 enum { COLUMNS, ROWS, X_STEP, Y_STEP, Z_STEP, COMPRESSION, TYPE, KEYS };
 enum { HEADER = 81 };
 

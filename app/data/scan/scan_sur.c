@@ -4,8 +4,6 @@
 // them. Leaves out series, colours and the compressed form of later programs.
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
-
 enum { SUR_HEADER = 512, PROFILE = 1, SURFACE = 2 };
 
 // A text field, cut at its end, in UTF-8.

@@ -3,9 +3,7 @@
 
 #include "app/base/number.h"
 
-#include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 enum { ENTRIES_MAX = 1000 };
 

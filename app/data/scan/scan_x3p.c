@@ -8,12 +8,9 @@
 
 #include "app/base/number.h"
 
-#include <math.h>
 #include <zip.h>
 
 enum { XML_MAX = 1 << 20 };
-
-// ---- main.xml ----
 
 // Takes the text of an element: path after the root, without name spaces, in lower case -> text.
 static void on_text(GMarkupParseContext *context, const char *text, gsize length, gpointer user,
@@ -48,8 +45,6 @@ static double number(GHashTable *texts, const char *path, double missing) {
   (void)sb_number_parse(&value, text_of(texts, path));
   return value;
 }
-
-// ---- The zip ----
 
 // A path in lower case, with slashes, after a slash.
 static char *tidy_path(const char *path) {
