@@ -73,13 +73,11 @@ typedef struct {
 } SbTextTable;
 
 // Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
-// Returns NULL with one issue if it cannot be read or is not a table. Freed by
-// sb_text_table_free().
+// Returns NULL with one issue if it cannot be read or is not a table.
 SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
                                 GPtrArray *issues);
 
-// As sb_text_table_open(), from the `length` bytes of a file; `name` is used as the path in
-// messages.
+// As sb_text_table_open(), from the `length` bytes of a file; `name` is its path in messages.
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues);
 
@@ -100,10 +98,9 @@ typedef struct {
 } SbTextTableRows;
 
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
-// numbers of column[k] in the file's units, freed by g_free(); times of day in seconds from
-// midnight of the first day; NaN for an empty cell; for the index table->columns, the row's block,
-// from 0, cut at blank lines and names. Returns false with one issue: memory, too many rows,
-// ambiguous dates.
+// numbers of column[k] in the file's units (g_free()), times of day in seconds from midnight of the
+// first day, NaN for an empty cell; for the index table->columns, the row's block, from 0, cut at
+// blank lines and names. Returns false with one issue: memory, too many rows, ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
@@ -126,6 +123,5 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
 // ',' or not just 3 digits follow it. Returns the number of bytes read; 0, *out unchanged: none.
 size_t sb_text_table_number_at(double *out, const char *text, char decimal);
 
-// Returns the usual spelling of a unit, as app/base/unit.h reads it: "Sek." is "s". NULL: not
-// known. Static.
+// Returns the usual spelling of a unit, as app/base/unit.h reads it: "s" for "Sek."; NULL: unknown.
 const char *sb_text_table_unit(const char *text);

@@ -134,8 +134,7 @@ bool sb_text_table_void(const SbTextTableCell *cell) {
   return *word != NULL;
 }
 
-// Writes the number with a decimal point and without other marks to `plain`, which
-// sb_number_parse() reads.
+// Rewrites the number with a decimal point and no other marks for sb_number_parse().
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw) {
   const char *c = cell->text, *const end = c + cell->length;

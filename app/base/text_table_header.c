@@ -166,8 +166,7 @@ static bool are_units(char *const *cells) {
   return known > 0 && 2 * known > texts;
 }
 
-// Whether a header line can name the columns: it has a text for nearly all that have numbers, and
-// no value.
+// Whether a header line can name the columns: a text for nearly all that have numbers, no value.
 static bool names_columns(const SbTextTable *table, char *const *cells) {
   size_t texts = 0, numbers = 0, count = 0;
   double value;
@@ -188,8 +187,7 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
          (count <= table->columns || texts == table->columns);
 }
 
-// Whether a quote that begins a cell is open at the end of line count - 1, from at most 3 lines
-// before.
+// Whether a quote that begins a cell, at most 3 lines before, is open behind line count - 1.
 static bool is_open(const SbTextTable *table, size_t count) {
   const char *quote = NULL;
   const size_t least = count - MIN(count, 3);
@@ -221,8 +219,7 @@ static void take_header_line(SbTextTable *table, char *const *cells, bool units_
 }
 
 // Whether a line directly after a row names each column, with different texts ("OVER" in each names
-// none); of a comment or matrix, or if blanks separate the cells, with a unit: a remark has as many
-// words.
+// none); of a comment or matrix, or with blanks between cells, with a unit, unlike a remark.
 static bool names_each(const SbTextTable *table, const GString *line, char *const *cells) {
   const SbTextTableShape *rows = &table->file->shape;
   int named = 0;

@@ -16,8 +16,7 @@ typedef struct {
 // separator (NULL: behind the last cell). Returns false if no cell is left.
 bool sb_text_table_cell(SbTextTableCell *cell, const char **at, const char *end, char separator);
 
-// Splits a line into cell[SB_TEXT_TABLE_COLUMNS_MAX] and returns their number; further cells are
-// ignored, as are empty ones at the end.
+// Splits a line into cell[SB_TEXT_TABLE_COLUMNS_MAX]; returns their number, less empty last ones.
 size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t length, char separator);
 
 // Returns whether a cell is empty or has a word that instruments write where they have no value.
@@ -33,8 +32,7 @@ enum {
   SB_TEXT_TABLE_SAW_PADDED = 16 // a zero before other digits, or -0: no program writes integers so
 };
 
-// Reads a cell as a number in this dialect. Returns false, with *out not changed, if it is none.
-// Sets bits of *saw (may be NULL).
+// Reads a number and sets bits of *saw (may be NULL). Returns false, *out unchanged, for a text.
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw);
 

@@ -35,8 +35,7 @@ typedef struct {
   size_t unreadable; // wanted cells that are not empty and have none
 } Line;
 
-// Reads the requested columns of a line to row[count]. Returns a static text that states what is
-// wrong with the file, or NULL.
+// Reads the requested columns of a line to row[count]. Returns what is wrong, static, or NULL.
 static const char *read_line(Line *out, double *row, Days *days, const SbTextTable *table,
                              const size_t *column, size_t count, const GString *text) {
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
@@ -64,8 +63,7 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
-// Counts a line that is left out, and stores the first one, preferably one that is not a damaged
-// row.
+// Counts a line that is left out; stores the first one, preferably not a damaged row.
 static void leave_line(SbTextTableRows *out, int number, const GString *text, bool damaged) {
   *(damaged ? &out->damaged : &out->skipped) += 1;
   if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
@@ -132,8 +130,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   return wrong == NULL;
 }
 
-// Appends the numbers of a line. Returns their number, without empty cells at the end beyond
-// `columns`; -1: a cell is not a number.
+// Appends and counts the numbers of a line, without empty last cells beyond `columns`; -1: a text.
 static gssize append_cells(GArray *out, const GString *line, size_t columns, size_t most,
                            const SbTextTableDialect *dialect) {
   const char *at = line->str;

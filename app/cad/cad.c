@@ -179,8 +179,7 @@ static void join_outline_cavities(SbCad *cad) {
   }
 }
 
-// Differences of the moments across the axis, and of the volumes, from those of a body of
-// revolution that are reported as a warning.
+// Relative differences of moments and volumes from a body of revolution that cause a warning.
 static const double ROUND = 0.02;
 
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {

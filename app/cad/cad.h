@@ -118,9 +118,8 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
 GArray *sb_profile_parse(const char *text, bool *closed, GError **error);
 
 // Orders the points (of SbProfilePoint) counter-clockwise in the (x, r) plane, as SbProfile
-// requires: reverses them in place, with their bulges, if they are clockwise. `closed`, as
-// sb_profile_parse() sets it: a piece from the last point to the first closes the outline; else the
-// axis closes it.
+// requires: reverses them in place, with their bulges, if they are clockwise. `closed`: a piece
+// from the last point to the first closes the outline; else the axis does.
 void sb_profile_turn(GArray *points, bool closed);
 
 // Returns the half-profile of a body as such a text, in mm; NULL if the profile is empty.

@@ -19,9 +19,8 @@ enum { SB_CAD_SECONDS_MAX = 60, SB_CAD_STALLED_MAX = 120 };
 typedef void (*SbCadCurve)(const void *curve, double t, double xy[2]);
 
 // Appends to `pieces` (of SbPiece) a chain of pieces that follow the curve `at(curve, t)` [m]
-// from t = 0 to 1 within SB_CAD_TOLERANCE. The curve is first divided into `steps` equal intervals
-// of t, at least 1. Returns false if the curve is not finite or needs too many pieces; `pieces`
-// then contains a part of it.
+// from t = 0 to 1 within SB_CAD_TOLERANCE, first divided into `steps` >= 1 equal intervals of t.
+// Returns false, with a part in `pieces`, if the curve is not finite or needs too many pieces.
 bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps);
 
 // Returns the arc from `from` through `middle` to `to`; straight if `middle` is on the line.
@@ -49,8 +48,7 @@ typedef struct {
 
 // Appends the outlines of the pieces (of SbPiece) of closed entities, above the axis and closed
 // by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
-// share bound neither the material of both nor a recess, an outline within another one at its edge;
-// they vanish.
+// share vanish: they bound neither the material of both nor a recess, an outline at an edge.
 void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
 // Appends the outlines of other lines: the outer boundary of those that are connected. Lines within
@@ -62,19 +60,17 @@ void sb_cad_add_open(SbCadLines *lines, const GArray *pieces, double gap, double
 // and r = |y|: those above it, or below if there are none above. Ends within `gap` [m] are one
 // point; the line y = 0 closes what ends on it. Entities that close by themselves are outlines;
 // edges that two of them share vanish. Of other pieces, in any order, an outline is the outer
-// boundary of those that are connected. Appends them as bodies, with the name `name`, to
-// cad->bodies, and warnings on what was ignored and on halves that differ. The caller then calls
-// sb_cad_settle().
+// boundary of those that are connected. Appends them as bodies named `name`, for sb_cad_settle(),
+// and warnings on what was ignored and on halves that differ.
 void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap);
 
 // Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the
 // axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines() (10 nm): the
-// outline with the largest revolved volume; or body->why, unless that is set. Adds a warning to
-// `cad` if there are several outlines.
+// outline with the largest revolved volume, with a warning if there are several; or body->why.
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
-// Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
-// the drawing that it is added to.
+// Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free() or its
+// drawing.
 SbCadBody *sb_cad_body_new(const char *name);
 
 // Returns the half-section of a body, borrowed.
@@ -88,8 +84,7 @@ void sb_cad_body_free(SbCadBody *body);
 // Completes the bodies: applies `flip` and `shift`, orders the profiles counter-clockwise, checks
 // them, and computes `revolved`, `solid` (unless `measured`) and the features. If a profile bounds
 // no body, it becomes empty and `why` states the problem. A body within another one of its layer
-// becomes its cavity. Warns for each measured body that is not one of revolution. To be called
-// once.
+// becomes its cavity. Warns for each measured body that is not one of revolution. Called once.
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
 
 // Returns the sentence SbCad.axis for an axis along `direction` [3] through the point `through` [3]
@@ -109,11 +104,9 @@ bool sb_cad_measure(SbSolid *solid, int body, bool *coarse);
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error);
 
-// Returns whether bytes are an STL file: the size fits its binary header, or the first word is
-// "solid".
+// Returns whether bytes are an STL file: the size fits the binary header, or "solid" is first.
 bool sb_cad_is_stl(const char *data, gsize length);
 
-// Reads the bytes of an STL file as one body, named like the file `path`, into a settled drawing.
-// Errors as sb_cad_read().
+// Reads the bytes of an STL file `path`, after which bodies are named. Errors as sb_cad_read().
 SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
                         const SbCadChoices *choices, GError **error);

@@ -35,8 +35,7 @@ typedef struct {
   double a, b, c, d, e, f;
 } SbDxfMap;
 
-// Reads the next pair. Returns false at the end of the text; with an error if a code is not a
-// number or has no value.
+// Reads the next pair. Returns false at the end; with an error if a code is none or has no value.
 bool sb_dxf_read_pair(SbDxfReader *reader, GError **error);
 
 // Writes the number of the pair. Codes 60 to 79 are 16-bit integers. Returns false with an error.

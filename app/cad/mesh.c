@@ -22,8 +22,8 @@ typedef struct {
   SbSolid solid;
 } Shell;
 
-// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part; NULL
-// with an error that names the plausible units.
+// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part, or
+// NULL.
 static const char *guess_unit(double side, GError **error) {
   static const char *const units[] = {"mm", "cm", "inch", "m", "um"};
   const char *found = NULL;
@@ -58,8 +58,7 @@ static void shell_free(gpointer data) {
   g_free(data);
 }
 
-// Returns the bodies of the mesh in its order, each a connected part of it with its cavities; NULL
-// with an error if there are too many.
+// Returns the bodies of the mesh in its order, connected parts with their cavities; NULL: too many.
 static GPtrArray *find_bodies(const SbStl *stl, GError **error) {
   g_autoptr(GPtrArray) shells = g_ptr_array_new_with_free_func(shell_free);
   g_autofree Shell **shell_of = g_new0(Shell *, stl->triangle_count + 1);
@@ -104,8 +103,7 @@ static void find_mesh_axis(double axis[3], const GPtrArray *shells) {
   sb_solid_axis(axis, (const double(*)[3])sum);
 }
 
-// Three unit vectors at right angles, the first along `axis`; of a coordinate axis, the others are
-// the next two coordinate axes.
+// Unit vectors at right angles, the first along `axis`; of a coordinate axis, the next two follow.
 static void frame_of(double frame[3][3], const double axis[3]) {
   const double length = hypot(hypot(axis[0], axis[1]), axis[2]);
   int main = 0;
@@ -121,8 +119,7 @@ static void frame_of(double frame[3][3], const double axis[3]) {
   cross(frame[2], frame[0], frame[1]);
 }
 
-// Turns and moves the mesh so that the axis is x. `through`: NULL, the middle of the box, unless
-// the axis is as good as there.
+// Makes the axis of the mesh x. `through` NULL: the middle of the box, unless the axis is near it.
 static void place(SbStl *stl, const double frame[3][3], const double *through) {
   double low[3], high[3], to[3] = {0};
   for (gsize i = 0; i < stl->vertex_count; i++) {
@@ -181,8 +178,7 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
   return pieces;
 }
 
-// Angles of the vertices farthest from the axis, of the sector where it is farthest first; not a
-// number where a sector has none.
+// Angles of the farthest vertex of each sector, first of the farthest of all; NaN: it has none.
 static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell) {
   double most[SECTORS] = {0};
   int first = 0;

@@ -1,9 +1,8 @@
 // Pieces joined to outlines, and outlines made half-sections about the line y = 0.
 #include "app/cad/cad_private.h"
 
-// The largest distance between pieces that are drawn twice; of a circle from the pieces that follow
-// it, and of a line; ends that are one point where a body is cut; difference of halves that is
-// reported [m].
+// Largest distances [m]: of pieces that are drawn twice; of pieces that continue a circle, a line;
+// of ends that are one point where a body is cut; of halves without a warning.
 static const double DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8,
                     HALVES = 2e-6;
 
@@ -20,8 +19,7 @@ static bool closes(const GArray *chain, double gap) {
   return good && length > 2 * gap;
 }
 
-// Returns the largest distance of an end or a middle of the pieces `of` from the nearest one of
-// `from`.
+// Returns the largest distance of ends and middles of the pieces `of` from the nearest of `from`.
 static double deviation(const GArray *of, const GArray *from) {
   double largest = 0;
   for (guint i = 0; i < 2 * of->len; i++) {
@@ -87,8 +85,7 @@ static void clip(GArray *out, SbPiece piece, double gap) {
   }
 }
 
-// Joins runs of pieces of one line or one circle, in place; if `within` is above 0, of any that are
-// as close to an arc [m].
+// Joins runs of pieces of one line or circle in place; `within` > 0: of any so close to an arc [m].
 static void simplify(GArray *chain, double within) {
   g_autoptr(GArray) all = g_array_copy(chain);
   guint kept = 0, first = 0; // first: of the pieces of `all` that the last one kept consists of
@@ -181,8 +178,7 @@ static bool is_known(const GPtrArray *others, const GArray *chain, double same) 
   return known;
 }
 
-// Finds the outlines of the entities (of GArray of SbPiece) above the axis, or below it and
-// mirrored (`side` -1).
+// Finds the outlines of entities (of GArray of SbPiece) above the axis; `side` -1: below, mirrored.
 static void read_half(SbCadLines *half, const GPtrArray *entities, int side, double gap) {
   const double same = fmin(gap, DOUBLED);
   g_autoptr(GArray) closed = g_array_new(FALSE, FALSE, sizeof(SbPiece));

@@ -74,8 +74,7 @@ static double weld_tolerance(const double *corners, gsize count) {
 }
 
 // Corners closer than the tolerance become one vertex, triangles that lose a corner by that are
-// dropped. Vertices are further apart than the tolerance, so that a cell of four holds few, and the
-// time grows with the count alone.
+// dropped. Vertices are further apart, so that a cell of four tolerances holds few: linear time.
 static void weld(SbStl *out, const double *corners, gsize triangles, double tolerance) {
   const gsize count = 3 * triangles;
   const double cell = tolerance > 0.0 ? 4.0 * tolerance : 1.0;

@@ -69,8 +69,8 @@ double sb_loop_force(const SbLoop *loop, int way, double displacement) {
   return force[low] + t * (force[high] - force[low]);
 }
 
-// Whether a row is of a sliding stem, and in which way. A stem that jams on its return rests where
-// the cycle ends, while the force falls.
+// Whether the stem slides, and in which way. One that jams on its return rests where the cycle
+// ends.
 static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
   const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
   const double margin = 0.01 * stroke;

@@ -141,8 +141,7 @@ static bool same_name(const char *a, const char *b) {
   return g_strcmp0(one, other) == 0;
 }
 
-// Whether columns of displacement and force are those of several specimens side by side: pairs in
-// one order with the same names.
+// Whether columns are those of specimens side by side: pairs in one order with the same names.
 static bool are_specimens(const SbTextTable *table, guint64 place, guint64 force) {
   const bool before = FIRST(place) < FIRST(force);
   guint64 low = before ? place : force, high = before ? force : place;
@@ -289,8 +288,7 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
 // Makes the forces of blocks behind a blank line or names that do not continue the table not a
 // number. Two of these are true of them: the time goes back; the displacement jumps further than
 // between rows of a long block; there are too few rows for a loop. The shorter side of the line is
-// dropped. A block whose time goes back, or a long one without time whose displacement does, is
-// another test, unless a line calls it a cycle.
+// dropped. A block whose time, or without time whose displacement, goes back is another test.
 static void drop_blocks(SbMeasured *m, const double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0;
@@ -352,8 +350,7 @@ static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, 
   return true;
 }
 
-// When the force turned: in the middle between its ways through nine tenths of the peak, as noise
-// moves the peak's own row.
+// When the force turned: midway between nine tenths of the peak, whose own row noise moves.
 static double turn_time(const SbMeasured *m, double sign, size_t peak) {
   const double level = 0.9 * sign * m->force[peak];
   double side[2];

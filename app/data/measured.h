@@ -113,12 +113,10 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbMeasured, sb_measured_free)
 // semicolon, decimal comma, utf-8, 3 header lines".
 char *sb_measured_text(const SbMeasured *measured);
 
-// Returns what of the file is left out or in doubt, for the user, in one line. NULL: nothing. Freed
-// by g_free().
+// Returns what of the file is left out or in doubt, for the user, in one line. NULL: nothing.
 char *sb_measured_doubts(const SbMeasured *measured);
 
-// Returns what was found as lines "key = value" of a group [data], which fix it for the next time
-// that the file is read.
+// Returns what was found as lines "key = value" of a group [data], which fix it for later readings.
 char *sb_measured_keys(const SbMeasured *measured);
 
 // ---- Rows for a comparison: those where the stem slides ----

@@ -260,8 +260,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   return true;
 }
 
-// While the stem rests on the stop its displacement has no one turn: the greatest force is where
-// the machine turned.
+// The stem rests on the stop: the machine turned at the greatest force, not at a displacement.
 static void settle_turns(SbMeasured *m) {
   for (guint c = 0; c < m->cycle->len; c++) {
     SbMeasuredCycle *cycle = &g_array_index(m->cycle, SbMeasuredCycle, c);

@@ -1,5 +1,4 @@
-// Interface between measured.c, which reads and scales the rows, measured_keys.c, measured_find.c
-// and compare.c.
+// Shared by measured.c, which reads and scales the rows, measured_keys.c, _find.c and compare.c.
 #pragma once
 
 #include "app/data/measured.h"

@@ -42,9 +42,8 @@ typedef struct {
   GPtrArray *notes;   // of char *: sentences on how the file was read; may be empty
 } SbScan;
 
-// Reads the file `path`. Returns FALSE with SB_APP_ERROR_INPUT (the file cannot be read, is
-// refused, or lacks a unit or distance) or SB_APP_ERROR_IO (no memory); the message names the file,
-// and `out` is then empty.
+// Reads the file `path`. Returns FALSE, with an empty `out`, and SB_APP_ERROR_INPUT (not readable,
+// refused, without a unit or distance) or SB_APP_ERROR_IO (no memory); the message names the file.
 gboolean sb_scan_read(SbScan *out, const char *path, const SbScanChoices *choices, GError **error);
 
 // As sb_scan_read(), from the `length` bytes of a file; `name` is used as its path in messages.

@@ -9,8 +9,7 @@
 
 enum { SB_SCAN_PARTS_MAX = 9, SB_SCAN_CUTOFFS_MAX = 24 };
 
-// A row of the table of cut-offs: results for the waves that Gaussian filters with these cut-offs
-// pass, computed from the spectrum.
+// A row of the table of cut-offs: for the waves that these Gaussian filters pass, by the spectrum.
 typedef struct {
   double cutoff_short, cutoff_long; // wavelengths [m]; 0: no such filter
   double moment[3];                 // m0 [m2], m2 [1], m4 [1/m2]
@@ -33,8 +32,7 @@ typedef struct {
 
 // Prepares `heights` in place (form, outliers, filters: `choices`) and computes all results.
 // Returns SB_OK or the status of sb_heights_prepare(), sb_height_figures() or sb_height_spectrum():
-// RANGE, INFEASIBLE, NOT_CONVERGED; the heights are then partly processed. Call
-// sb_scan_figures_clear() in any case.
+// RANGE, INFEASIBLE, NOT_CONVERGED, heights partly processed. Always sb_scan_figures_clear() it.
 SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
                          SbReport *report);
 

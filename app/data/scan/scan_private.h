@@ -50,6 +50,5 @@ typedef enum {
 bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, SbScanKind kind, SbScanBytes bytes,
                        double scale, double missing, GError **error);
 
-// Returns the metres of a unit of length as files write it ("nm", "µm", "um", "mkm", "[nm]"); 0 for
-// any other text.
+// Returns the metres of a unit of length as files write it ("nm", "um", "mkm", "[nm]"); else 0.
 double sb_scan_length(const char *unit);

@@ -8,8 +8,7 @@
 enum { COLUMNS, ROWS, X_STEP, Y_STEP, Z_STEP, COMPRESSION, TYPE, KEYS };
 enum { HEADER = 81 };
 
-// The text form: a matrix with a header (scan_text_keys.def), without the line between them and
-// what follows the heights.
+// The text form: a matrix and header (scan_text_keys.def), without the lines between and behind.
 static bool read_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
                       GError **error) {
   g_autofree char *text = g_strndup((const char *)bytes.at, (gsize)(bytes.end - bytes.at));

@@ -161,8 +161,7 @@ static const char *positions(const Text *text, bool announced) {
   return column ? "column" : row ? "row" : NULL;
 }
 
-// Writes points with columns x, y, z to the grid that they form; positions without one are NaN.
-// `lateral` is the metres per unit of x and y.
+// Writes points x, y, z to their grid; NaN: no point. `lateral`: metres per unit of x and y.
 static bool take_grid(SbScan *out, const Text *text, const Axis axis[2], double lateral,
                       GError **error) {
   const Axis x = axis[0], y = axis[1];
@@ -187,8 +186,7 @@ static bool take_grid(SbScan *out, const Text *text, const Axis axis[2], double 
   return true;
 }
 
-// Sets dx to the mean step of the first of columns x, z. False with an error if the steps are
-// unequal.
+// Sets dx to the mean step of the first of columns x, z. False with an error: unequal steps.
 static bool find_step(SbScan *out, const Text *text, double lateral, GError **error) {
   const gsize rows = text->matrix.rows;
   const double step = rows > 1 ? (at(text, rows - 1, 0) - at(text, 0, 0)) / (double)(rows - 1) : 0;
@@ -206,9 +204,8 @@ static bool find_step(SbScan *out, const Text *text, double lateral, GError **er
 
 // ---- Sizes and units ----
 
-// Finds the columns x, y and z by their names. Of two or three columns, those
-// with other names are the remaining ones in this order. False with an error if two columns may be
-// one of them, or if the places form no grid.
+// Finds the columns x, y and z by their names. Of two or three columns, those with other names are
+// the remaining ones in this order. False with an error: two may be one of them, or form no grid.
 static bool find_columns(SbScan *out, Text *text, GError **error) {
   static const char *const keys[] = {KEY_X, KEY_Y, KEY_Z};
   const gsize columns = text->table->columns, none = SB_TEXT_TABLE_COLUMNS_MAX;
@@ -268,9 +265,8 @@ typedef struct {
   double usual;             // unit of the format [m]; 0: none
 } Header;
 
-// Takes the step along an axis, 0 or 1, or the size divided by the number of points (NaN: not by
-// the size). What has a unit takes precedence. A size without a unit that equals the number of
-// points states that number.
+// Takes the step along an axis, 0 or 1, or the size divided by `count` points (NaN: not by it);
+// what has a unit takes precedence. A size of `count` without a unit is the number of points.
 static void take_step(Header *h, const Text *text, int axis, double count) {
   const Entry *step = find_entry(text, axis == 0 ? KEY_STEP_X : KEY_STEP_Y, true);
   const Entry *size = find_entry(text, axis == 0 ? KEY_SIZE_X : KEY_SIZE_Y, true);

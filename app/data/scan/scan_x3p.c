@@ -73,8 +73,7 @@ static zip_int64_t find_member(zip_t *zip, const char *path) {
   return found;
 }
 
-// A member's bytes and their number in *size; NULL with an error. Deflate packs at most 1032 to
-// one: more is announced by a bomb alone.
+// A member's bytes; NULL with an error. Deflate packs 1032 to one at most: else it is a bomb.
 static guchar *member(zip_t *zip, const char *name, size_t *size, size_t most, size_t packed,
                       GError **error) {
   zip_stat_t about;
