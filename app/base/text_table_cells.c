@@ -98,15 +98,6 @@ static size_t skip_one(const char *c, const char *end, const char *const *texts)
   return 0;
 }
 
-// Skips a sign: +, -, or another minus sign or dash.
-static const char *skip_sign(bool *negative, const char *c, const char *end) {
-  static const char *const minus[] = {"-", "\xe2\x88\x92", "\xe2\x80\x93", "\xef\xbc\x8d", NULL};
-  const bool digit = c < end && g_ascii_isdigit(*c); // the usual case, quickly
-  const size_t length = digit ? 0 : skip_one(c, end, minus);
-  *negative = length > 0;
-  return c + (length > 0 ? length : (size_t)(c < end && *c == '+'));
-}
-
 // Returns the length of a mark between thousands at `c`, which three digits and no fourth follow:
 // the dialect's, an apostrophe, or a blank of any kind. 0: none.
 static size_t group_mark(const char *c, const char *end, char thousands) {
@@ -134,32 +125,33 @@ bool sb_text_table_void(const SbTextTableCell *cell) {
   return *word != NULL;
 }
 
-// Rewrites the number with a decimal point and no other marks for sb_number_parse().
+// Rewrites the number with a decimal point and no other marks for sb_number_parse(), which checks
+// it.
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw) {
+  static const char *const minus[] = {"-", "\xe2\x88\x92", "\xe2\x80\x93", "\xef\xbc\x8d", NULL};
   const char *c = cell->text, *const end = c + cell->length;
   if (dialect->matrix && sb_text_table_void(cell)) {
     *out = NAN;
     return true;
   }
-  char plain[SB_NUMBER_LENGTH_MAX + 1];
-  size_t count = 1, mark;
+  char plain[SB_NUMBER_LENGTH_MAX + 1], first = '\0'; // first: the first digit
+  size_t count = 0, length;
   unsigned seen = 0;
   int run = 0; // digits since the last mark, before the decimal mark
-  bool negative, whole = true, power = false;
-  const char *const first = c = skip_sign(&negative, c, end);
-  plain[0] = negative ? '-' : '+';
+  bool whole = true;
   while (c < end && count + 1 < sizeof plain) {
     const bool grouped = (seen & SB_TEXT_TABLE_SAW_GROUPS) != 0;
     if (g_ascii_isdigit(*c)) {
+      first = first == '\0' ? *c : first;
       run += whole;
       plain[count++] = *c++;
-    } else if (whole && run > 0 && (grouped ? run == 3 : run <= 3 && *first != '0') &&
-               (mark = group_mark(c, end, dialect->thousands)) > 0) {
+    } else if (whole && run > 0 && (grouped ? run == 3 : run <= 3 && first != '0') &&
+               (length = group_mark(c, end, dialect->thousands)) > 0) {
       seen |= SB_TEXT_TABLE_SAW_GROUPS | (*c == ' ' ? SB_TEXT_TABLE_SAW_BLANK : 0) |
               (*c == dialect->thousands ? SB_TEXT_TABLE_SAW_MARK : 0);
       run = 0;
-      c += mark;
+      c += length;
     } else if (whole && *c == dialect->decimal) {
       c++;
       if (dialect->decimal == ',' && (c == end || !g_ascii_isdigit(*c))) {
@@ -168,13 +160,12 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
       seen |= SB_TEXT_TABLE_SAW_DECIMAL;
       whole = false;
       plain[count++] = '.';
-    } else if (!power && (*c == 'e' || *c == 'E')) {
-      c = skip_sign(&negative, c + 1, end);
-      whole = false;
-      power = true;
-      plain[count++] = 'e';
-      plain[count] = negative ? '-' : '+';
-      count += count + 1 < sizeof plain;
+    } else if (*c == 'e' || *c == 'E' || *c == '+') {
+      whole = whole && *c == '+';
+      plain[count++] = *c++;
+    } else if ((length = skip_one(c, end, minus)) > 0) {
+      plain[count++] = '-';
+      c += length;
     } else {
       return false;
     }
@@ -184,7 +175,7 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
     return false;
   }
   if (saw != NULL) {
-    const bool padded = *first == '0' && (run > 1 || (whole && plain[0] == '-'));
+    const bool padded = first == '0' && (run > 1 || (whole && plain[0] == '-'));
     *saw |= (padded ? SB_TEXT_TABLE_SAW_PADDED : 0) | seen |
             (run > 3 && (seen & SB_TEXT_TABLE_SAW_GROUPS) == 0 ? SB_TEXT_TABLE_SAW_LONG : 0);
   }

@@ -201,34 +201,33 @@ static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell
   angle[first] = swap;
 }
 
+static SbCadBody *add_section(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
+                              double angle) {
+  SbCadBody *body = sb_cad_body_new(name);
+  g_autoptr(GArray) pieces = cut(stl, shell, angle);
+  g_ptr_array_add(cad->bodies, body);
+  sb_cad_section(cad, body, pieces);
+  return body;
+}
+
 // Adds a body with its half-section: without a chosen angle at the first of the farthest vertices,
 // or where the half-plane meets clearly more of the body, as next to ports.
 static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
                      const SbCadChoices *choices) {
-  double angle[SECTORS];
+  double angle[SECTORS], best = 0; // volume of the best half-section, revolved
   farthest(angle, stl, shell);
-  angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
-  g_autoptr(SbCad) chosen = NULL;
-  double best = 0; // volume of the chosen half-section, revolved
-  for (int k = 0; k < (choices->angle == NULL ? SECTORS : 1); k++) {
-    if (k > 0 && (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
-      continue;
+  double at = angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
+  for (int k = 0; choices->angle == NULL && k < SECTORS; k++) {
+    if (k == 0 || !(isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
+      g_autoptr(SbCad) tried = sb_cad_new("");
+      const double volume = add_section(tried, stl, shell, name, angle[k])->revolved.volume;
+      at = volume > (1 + MORE) * best ? angle[k] : at;
+      best = volume > (1 + MORE) * best ? volume : best;
     }
-    SbCad *tried = sb_cad_new("");
-    SbCadBody *half = sb_cad_body_new(name);
-    g_autoptr(GArray) pieces = cut(stl, shell, angle[k]);
-    g_ptr_array_add(tried->bodies, half);
-    sb_cad_section(tried, half, pieces);
-    const bool more = k == 0 || half->revolved.volume > (1 + MORE) * best;
-    best = more ? half->revolved.volume : best;
-    sb_cad_free(more ? chosen : tried);
-    chosen = more ? tried : chosen;
   }
-  SbCadBody *body = g_ptr_array_steal_index(chosen->bodies, 0);
-  g_ptr_array_extend_and_steal(cad->warnings, g_ptr_array_ref(chosen->warnings));
+  SbCadBody *body = add_section(cad, stl, shell, name, at);
   body->measured = true;
   body->solid = shell->solid;
-  g_ptr_array_add(cad->bodies, body);
 }
 
 // From the mesh in the file's own numbers.
