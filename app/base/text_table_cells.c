@@ -188,13 +188,11 @@ bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
   enum { YEAR = 1, MARK, MONTH, DAY, HOUR, MINUTE, SECOND, FRACTION, HALF, PARTS };
   static GRegex *regex; // compiled once, never freed
   g_autoptr(GMatchInfo) match = NULL;
-  if (memchr(cell->text, ':', cell->length) == NULL) {
-    return false;
-  }
   if (g_once_init_enter(&regex)) {
     g_once_init_leave(&regex, g_regex_new(form, G_REGEX_CASELESS | G_REGEX_RAW, 0, NULL));
   }
-  if (!g_regex_match_full(regex, cell->text, (gssize)cell->length, 0, 0, &match, NULL)) {
+  if (memchr(cell->text, ':', cell->length) == NULL ||
+      !g_regex_match_full(regex, cell->text, (gssize)cell->length, 0, 0, &match, NULL)) {
     return false;
   }
   const char *part[PARTS];

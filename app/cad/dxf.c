@@ -304,22 +304,25 @@ static bool read_file(Drawing *drawing, GError **error) {
 
 // Finds the axis of the bodies and returns the map that makes it the line y = 0.
 static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
-  double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
+  double longest = 0, along[3] = {1, 0, 0}, at[3] = {0};
   const bool found = choices->axis == NULL && choices->through == NULL && !choices->section;
   for (guint i = 0; found && i < drawing->centre->len; i++) {
     const SbPiece *line = &g_array_index(drawing->centre, SbPiece, i);
     const double dx = line->x1 - line->x0, dy = line->y1 - line->y0, length = hypot(dx, dy);
     if (length > longest) {
+      const double most = 1e-9 * length, sign = dx < -most || (dx <= most && dy < 0) ? -1 : 1;
       longest = length;
-      const double c = dx / length, s = dy / length;
-      const double sign = c < -1e-9 || (fabs(c) <= 1e-9 && s < 0) ? -1 : 1;
-      memcpy(direction, (double[]){sign * c, sign * s, 0}, sizeof direction);
-      memcpy(through, (double[]){line->x0, line->y0, 0}, sizeof through);
+      memcpy(along, (double[]){sign * dx, sign * dy, 0}, sizeof along);
+      memcpy(at, (double[]){line->x0, line->y0, 0}, sizeof at);
     }
   }
-  through[1] = choices->section ? drawing->low - AWAY : through[1];
-  const double *at = choices->section || choices->through == NULL ? through : choices->through;
-  const double *along = choices->section || choices->axis == NULL ? direction : choices->axis;
+  if (choices->axis != NULL && !choices->section) {
+    memcpy(along, choices->axis, sizeof along);
+  }
+  if (choices->through != NULL && !choices->section) {
+    memcpy(at, choices->through, sizeof at);
+  }
+  at[1] = choices->section ? drawing->low - AWAY : at[1];
   // The point of the line that is nearest to the drawing's origin is x = 0.
   const double length = hypot(along[0], along[1]), c = along[0] / length, s = along[1] / length;
   const double foot = at[0] * c + at[1] * s;

@@ -73,11 +73,9 @@ static bool entity_take(SbDxfEntity *entity, const SbDxfReader *reader, GError *
   if (text != NULL) {
     g_strlcpy(text, reader->value, sizeof entity->layer);
   }
-  if (!((code >= 10 && code < 80) || code == 210 || code == 220 || code == 230)) {
-    return true;
-  }
-  if (!sb_dxf_number(reader, &value, error)) {
-    return false;
+  const bool number = (code >= 10 && code < 80) || code == 210 || code == 220 || code == 230;
+  if (!number || !sb_dxf_number(reader, &value, error)) {
+    return !number;
   }
   entity->number[code] = value;
   if (code == 30 || (code == 31 && sb_dxf_is(entity, "LINE"))) {

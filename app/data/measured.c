@@ -3,6 +3,8 @@
 
 #include "app/base/number.h"
 
+#include <gsl/gsl_statistics_double.h>
+
 #define SPEED_MAX 10.0                                        // of a test machine [m/s]
 enum { ROWS_MIN = 8 };                                        // of a loop
 #define CYCLE "cy[ck]l|zykl|ciclo|\\bloop|цикл|循环|サイクル" // in a line above a cycle
@@ -372,20 +374,17 @@ static double turn_time(const SbMeasured *m, double sign, size_t peak) {
 // from where the record begins; rows behind that are left out.
 static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   enum { LEAST = 5 };
-  double mean = 0;
-  for (size_t i = 0; i < m->count; i++) {
-    mean += m->force[i] / (double)m->count;
-    if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
+  for (size_t i = 1; i < m->count; i++) {
+    if (!(m->time[i] >= m->time[i - 1])) {
       return sb_data_add_issue(
           data, SB_DATA_FILE, NULL, issues,
           "its time decreases at row %zu, and nothing else gives the displacement", i + 1);
     }
   }
-  const double sign = mean < 0 ? -1 : 1;
-  size_t peak = 0, first = 0;
-  for (size_t i = 1; i < m->count; i++) {
-    peak = sign * m->force[i] > sign * m->force[peak] ? i : peak;
-  }
+  const double sign = gsl_stats_mean(m->force, 1, m->count) < 0 ? -1 : 1;
+  const size_t peak = sign > 0 ? gsl_stats_max_index(m->force, 1, m->count)
+                               : gsl_stats_min_index(m->force, 1, m->count);
+  size_t first = 0;
   // The first of several peaks that are all but as high.
   while (first < peak && !(sign * m->force[first] > 0.95 * sign * m->force[peak])) {
     first++;
@@ -466,10 +465,9 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues) {
   SbTextTableDialect wish = {0};
-  if (!sb_measured_dialect(&wish, data, issues)) {
-    return NULL;
-  }
-  g_autoptr(SbTextTable) table = bytes != NULL
+  const bool good = sb_measured_dialect(&wish, data, issues);
+  g_autoptr(SbTextTable) table = !good ? NULL
+                                 : bytes != NULL
                                      ? sb_text_table_parse(bytes, length, &wish, data->path, issues)
                                      : sb_text_table_open(data->path, &wish, issues);
   return table != NULL ? read_table(table, data, speed, issues) : NULL;
