@@ -76,8 +76,7 @@ static GString *narrow(const guint8 *bytes, size_t length, bool big) {
 }
 
 // Appends a line in an old encoding; without one of its codes, each byte is a character.
-static void append_old(GString *text, const char *line, size_t length,
-                       SbTextTableEncoding encoding) {
+static void add_old(GString *text, const char *line, size_t length, SbTextTableEncoding encoding) {
   const char *from = encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252"
                      : encoding == SB_TEXT_TABLE_GBK  ? "GB18030"
                                                       : "CP932";
@@ -113,7 +112,7 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
     if (wide || encoding == SB_TEXT_TABLE_UTF8 || g_utf8_validate(from, last - from, NULL)) {
       g_string_append_len(file->text, from, last - from);
     } else {
-      append_old(file->text, from, (size_t)(last - from), encoding);
+      add_old(file->text, from, (size_t)(last - from), encoding);
     }
     line.len = file->text->len - line.allocated_len;
     good = line.len <= LONGEST_LINE;
@@ -358,9 +357,8 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 }
 
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
-  const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
-  return (shape.numeric | shape.clocks) != 0 &&
-         same_shape(&shape, &table->file->shape, &table->dialect);
+  const SbTextTableShape own = sb_text_table_shape(line, &table->dialect);
+  return (own.numeric | own.clocks) != 0 && same_shape(&own, &table->file->shape, &table->dialect);
 }
 
 // Finds the line where the longest block of rows begins, and the names and units above the block.

@@ -190,9 +190,8 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
 // Whether a quote that begins a cell, at most 3 lines before, is open behind line count - 1.
 static bool is_open(const SbTextTable *table, size_t count) {
   const char *quote = NULL;
-  const size_t least = count - MIN(count, 3);
-  while (count > least &&
-         (quote = strrchr(sb_text_table_line(table, count - 1)->str, '"')) == NULL) {
+  const size_t low = count - MIN(count, 3);
+  while (count > low && (quote = strrchr(sb_text_table_line(table, count - 1)->str, '"')) == NULL) {
     count--;
   }
   return quote != NULL && (quote == sb_text_table_line(table, count - 1)->str ||

@@ -11,12 +11,11 @@ typedef struct {
 
 static bool add_days(double *out, Days *days, const SbTextTableClock *clock, char dates) {
   if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
-    long before, now;
-    if (!sb_text_table_days(&before, &days->last, dates) ||
-        !sb_text_table_days(&now, clock, dates)) {
+    long old, now;
+    if (!sb_text_table_days(&old, &days->last, dates) || !sb_text_table_days(&now, clock, dates)) {
       return false;
     }
-    days->day += 86400.0 * (double)(now - before);
+    days->day += 86400.0 * (double)(now - old);
   } else if (days->begun && clock->date[0] == 0 && clock->seconds < days->last.seconds - 43200) {
     days->day += 86400; // past midnight
   }

@@ -55,9 +55,8 @@ void sb_cad_free(SbCad *cad) {
 // Two radii that are one [m]; and the shortest cylinder that counts for more than a rounded corner.
 static const double EQUAL = 1e-7, SHORTEST = 50e-6;
 
-static bool is_level(const SbPiece *piece) {
-  return piece->bulge == 0 && fabs(piece->y1 - piece->y0) <= EQUAL &&
-         fabs(piece->x1 - piece->x0) > EQUAL;
+static bool is_level(const SbPiece *p) {
+  return p->bulge == 0 && fabs(p->y1 - p->y0) <= EQUAL && fabs(p->x1 - p->x0) > EQUAL;
 }
 
 // The wall beside an outer cylinder: follows the outline from piece `from` by `step` while it
@@ -203,21 +202,20 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
 }
 
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {
-  const size_t bytes_max = (size_t)256 << 20;
+  const size_t most = (size_t)256 << 20;
   g_autofree char *shown = sb_printable(path, strlen(path));
-  size_t length;
-  g_autofree char *text =
-      sb_reader_load_file(&length, path, shown, bytes_max, SB_APP_ERROR_INPUT, error);
+  size_t size;
+  g_autofree char *text = sb_reader_load_file(&size, path, shown, most, SB_APP_ERROR_INPUT, error);
   if (text == NULL) {
     return NULL;
   }
   // The content decides; the name only where the content is of no known kind.
   g_autofree char *lower = g_ascii_strdown(path, -1);
-  return g_strstr_len(text, (gssize)MIN(length, 1000), "ISO-10303-21") != NULL
+  return g_strstr_len(text, (gssize)MIN(size, 1000), "ISO-10303-21") != NULL
              ? sb_cad_read_step(path, shown, choices, error)
-         : sb_cad_is_stl(text, length) || g_str_has_suffix(lower, ".stl")
-             ? sb_cad_parse_stl(text, length, shown, choices, error)
-             : sb_cad_parse_dxf(text, length, shown, choices, error);
+         : sb_cad_is_stl(text, size) || g_str_has_suffix(lower, ".stl")
+             ? sb_cad_parse_stl(text, size, shown, choices, error)
+             : sb_cad_parse_dxf(text, size, shown, choices, error);
 }
 
 // ---- Half-profiles as text ----

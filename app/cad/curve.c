@@ -21,8 +21,7 @@ SbPiece sb_cad_arc(const double from[2], const double middle[2], const double to
   return (SbPiece){from[0], from[1], to[0], to[1], cross > 0 ? -bulge : bulge};
 }
 
-static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,
-                   int depth) {
+static bool divide(GArray *out, SbCadCurve at, const void *curve, double t0, double t1, int depth) {
   double p[POINTS][2], extent = 0;
   for (int i = 0; i < POINTS; i++) {
     at(curve, t0 + (t1 - t0) * i / (POINTS - 1), p[i]);
@@ -42,12 +41,12 @@ static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, 
     good = off <= BETWEEN * SB_CAD_TOLERANCE;
   }
   if (good) {
-    g_array_append_val(pieces, piece);
-    return pieces->len <= PIECES_MAX;
+    g_array_append_val(out, piece);
+    return out->len <= PIECES_MAX;
   }
   const double middle = (t0 + t1) / 2;
-  return depth < DEPTH_MAX && divide(pieces, at, curve, t0, middle, depth + 1) &&
-         divide(pieces, at, curve, middle, t1, depth + 1);
+  return depth < DEPTH_MAX && divide(out, at, curve, t0, middle, depth + 1) &&
+         divide(out, at, curve, middle, t1, depth + 1);
 }
 
 bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps) {

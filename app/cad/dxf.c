@@ -88,30 +88,28 @@ static void count_left_out(Drawing *drawing, const char *type, const char *reaso
   g_hash_table_insert(drawing->left_out, counted, GUINT_TO_POINTER(count + 1));
 }
 
-static bool add_pieces(Drawing *drawing, const char *name, bool centre, GArray *pieces,
-                       GError **error) {
+static bool add_pieces(Drawing *to, const char *name, bool centre, GArray *pieces, GError **error) {
   guint layer = 0;
-  while (layer < drawing->names->len &&
-         g_ascii_strcasecmp(drawing->names->pdata[layer], name) != 0) {
+  while (layer < to->names->len && g_ascii_strcasecmp(to->names->pdata[layer], name) != 0) {
     layer++;
   }
-  if (!centre && layer == drawing->names->len) {
-    g_ptr_array_add(drawing->names, g_strdup(name));
-    g_ptr_array_add(drawing->layers, g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref));
+  if (!centre && layer == to->names->len) {
+    g_ptr_array_add(to->names, g_strdup(name));
+    g_ptr_array_add(to->layers, g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref));
   }
   if (centre) {
-    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
+    g_array_append_vals(to->centre, pieces->data, pieces->len);
   } else {
-    g_ptr_array_add(drawing->layers->pdata[layer], g_array_ref(pieces));
+    g_ptr_array_add(to->layers->pdata[layer], g_array_ref(pieces));
   }
   // No arc goes further from its chord than that is long times the bulge.
   for (guint i = 0; !centre && i < pieces->len; i++) {
     const SbPiece *p = &g_array_index(pieces, SbPiece, i);
     const double deep = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
-    drawing->low = fmin(drawing->low, fmin(p->y0, p->y1) - deep);
+    to->low = fmin(to->low, fmin(p->y0, p->y1) - deep);
   }
-  drawing->pieces += pieces->len;
-  return (drawing->pieces <= DXF_PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
+  to->pieces += pieces->len;
+  return (to->pieces <= DXF_PIECES_MAX && to->names->len <= LAYERS_MAX) ||
          sb_app_error_input(error,
                             "more than %d pieces or %d layers: export the seal's parts alone",
                             DXF_PIECES_MAX, LAYERS_MAX);

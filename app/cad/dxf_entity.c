@@ -2,7 +2,7 @@
 #include "app/cad/dxf_private.h"
 
 // Control points of a spline and its degree; values of a list.
-enum { CONTROL_MAX = 2000, DEGREE_MAX = 15, POINTS_MAX = 100000 };
+enum { CONTROL_MAX = 2000, DEGREE_MAX = 15, MOST = 100000 };
 
 // Beyond this an entity is left out [m].
 static const double FARTHEST = 1e6;
@@ -90,11 +90,10 @@ static bool entity_take(SbDxfEntity *entity, const SbDxfReader *reader, GError *
       const double straight = 0;
       g_array_append_val(list, straight);
     }
-    if (code == list_code[i] && list->len < POINTS_MAX) {
+    if (code == list_code[i] && list->len < MOST) {
       g_array_append_val(list, value);
     } else if (code == list_code[i]) {
-      return sb_app_error_input(error, "line %d: more than %d points", reader->next.line,
-                                POINTS_MAX);
+      return sb_app_error_input(error, "line %d: more than %d points", reader->next.line, MOST);
     }
   }
   return true;
@@ -192,10 +191,9 @@ static bool add_bulge(GArray *out, const SbDxfMap *way, const SbPiece *piece) {
 static bool add_ellipse(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) {
   const double *n = entity->number, up = n[230] < 0 ? -n[40] : n[40];
   const double end = n[42] > n[41] ? n[42] : n[42] + 2 * M_PI;
-  const Ellipse ellipse = {way,   {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]},
-                           n[41], end - n[41]};
-  return n[40] > 0 && ellipse.sweep <= 2 * M_PI + 1e-6 &&
-         sb_cad_curve(out, ellipse_at, &ellipse, 4);
+  const Ellipse curve = {way,   {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]},
+                         n[41], end - n[41]};
+  return n[40] > 0 && curve.sweep <= 2 * M_PI + 1e-6 && sb_cad_curve(out, ellipse_at, &curve, 4);
 }
 
 // An arc in two halves. A circle has no angles; those that a file states for it are ignored.

@@ -56,12 +56,10 @@ static bool divide_outline(GArray *all, guint index, guint by, double same) {
 // Returns whether two pieces are one, in any direction.
 static bool is_same(const Drawn *a, const Drawn *b, double same) {
   const SbPiece *p = &a->piece, *q = &b->piece;
-  const double along =
-      fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
-  const double back =
-      fmax(hypot(p->x0 - q->x1, p->y0 - q->y1), hypot(p->x1 - q->x0, p->y1 - q->y0));
+  const double one = fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
+  const double two = fmax(hypot(p->x0 - q->x1, p->y0 - q->y1), hypot(p->x1 - q->x0, p->y1 - q->y0));
   return hypot(a->middle[0] - b->middle[0], a->middle[1] - b->middle[1]) <= same &&
-         fmin(along, back) <= same;
+         fmin(one, two) <= same;
 }
 
 // Returns the pieces (as Drawn) without those of no length, divided where others end on them or run

@@ -181,11 +181,10 @@ static int axis_of(Axis *axis, int tag) {
       a[6 * i + 3 + k] = n[i][k];
     }
   }
-  gsl_matrix_view matrix = gsl_matrix_view_array(a, SAMPLES, 6),
-                  right = gsl_matrix_view_array(v, 6, 6);
+  gsl_matrix_view all = gsl_matrix_view_array(a, SAMPLES, 6), cols = gsl_matrix_view_array(v, 6, 6);
   gsl_vector_view values = gsl_vector_view_array(s, 6), work = gsl_vector_view_array(w, 6);
   if (!(size > 0) ||
-      gsl_linalg_SV_decomp(&matrix.matrix, &right.matrix, &values.vector, &work.vector) != 0) {
+      gsl_linalg_SV_decomp(&all.matrix, &cols.matrix, &values.vector, &work.vector) != 0) {
     return 0;
   }
   int count = 0;
@@ -359,11 +358,10 @@ static void print_section(int body) {
     fprintf(out, "why it has no extent\n");
     return;
   }
-  const double reach =
-      2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
+  const double size = 2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
   const double margin = 0.1 * (box[3] - box[0]) + 0.1;
   const int plane = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin,
-                                             reach + 1, -1, 0, &ierr);
+                                             size + 1, -1, 0, &ierr);
   int object[2] = {3, body}, tool[2] = {2, plane}, *faces = NULL, **map = NULL;
   size_t count = 0, *map_n = NULL, maps = 0;
   if (ierr == 0) {

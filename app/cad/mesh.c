@@ -141,8 +141,7 @@ static void place(SbStl *stl, const double frame[3][3], const double *through) {
 }
 
 // Where an edge crosses the plane; from its lower vertex on, so that both facets find the same.
-static void cross_plane(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c,
-                        double s) {
+static void pierce(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c, double s) {
   const double *p = stl->vertices + 3 * (gsize)MIN(a, b);
   const double *q = stl->vertices + 3 * (gsize)MAX(a, b);
   const double off = p[2] * c - p[1] * s;
@@ -167,7 +166,7 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
     }
     for (int k = 0; k < 3 && found < 2; k++) {
       if (behind[k] != behind[(k + 1) % 3]) {
-        cross_plane(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
+        pierce(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {

@@ -3,8 +3,7 @@
 
 // Largest distances [m]: of pieces that are drawn twice; of pieces that continue a circle, a line;
 // of ends that are one point where a body is cut; of halves without a warning.
-static const double DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8,
-                    HALVES = 2e-6;
+static const double DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT = 1e-8, HALVES = 2e-6;
 
 // Returns whether the pieces follow one another from end to end, back to the first.
 static bool closes(const GArray *chain, double gap) {
@@ -297,7 +296,7 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
   const SbCadBody *best = NULL;
   guint count = 0;
   const gpointer all[] = {(gpointer)pieces};
-  sb_cad_outlines(found, &(GPtrArray){(gpointer *)all, 1}, body->name, CUT_GAP);
+  sb_cad_outlines(found, &(GPtrArray){(gpointer *)all, 1}, body->name, CUT);
   sb_cad_settle(found, &none);
   for (guint i = 0; i < found->bodies->len; i++) {
     const SbCadBody *one = found->bodies->pdata[i];

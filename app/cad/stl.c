@@ -8,7 +8,7 @@
 enum { HEADER = 84, RECORD = 50 };
 
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
-static const size_t length_max = (size_t)SB_STL_TRIANGLES_MAX * 512;
+static const size_t LONGEST = (size_t)SB_STL_TRIANGLES_MAX * 512;
 
 // Part of the box's diagonal within which corners are one: what six digits of text leave open.
 static const double WELD = 1e-5;
@@ -235,8 +235,7 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error) {
   *out = (SbStl){0};
   gsize length = 0;
-  g_autofree char *data =
-      sb_reader_load_file(&length, path, path, length_max, SB_APP_ERROR_IO, error);
+  g_autofree char *data = sb_reader_load_file(&length, path, path, LONGEST, SB_APP_ERROR_IO, error);
   return data != NULL && sb_stl_parse(out, data, length, unit, path, error);
 }
 

@@ -84,8 +84,7 @@ SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t c
   int way;
   const size_t rows = sb_measured_cycle(m, m->last)->end - sb_measured_cycle(m, m->first)->begin;
   const size_t each = rows / MAX(count_max, 1) + (rows % MAX(count_max, 1) != 0);
-  SbMeasuredPoint *point =
-      g_new(SbMeasuredPoint, rows / MAX(each, 1) + 2 * (m->last - m->first) + 4);
+  SbMeasuredPoint *out = g_new(SbMeasuredPoint, rows / MAX(each, 1) + 2 * (m->last - m->first) + 4);
   SbMeasuredPoint sum = {0};
   *count = 0;
   for (size_t c = m->first; c <= m->last; c++) {
@@ -95,8 +94,8 @@ SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t c
       // A mean ends with its rows, its stroke or its cycle.
       if (sum.weight > 0 &&
           (sum.weight >= (double)each || i == cycle->end || (takes && way != sum.way))) {
-        point[(*count)++] = (SbMeasuredPoint){sum.displacement / sum.weight, sum.force / sum.weight,
-                                              sum.weight, sum.way};
+        out[(*count)++] = (SbMeasuredPoint){sum.displacement / sum.weight, sum.force / sum.weight,
+                                            sum.weight, sum.way};
         sum = (SbMeasuredPoint){0};
       }
       if (takes) {
@@ -107,7 +106,7 @@ SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t c
       }
     }
   }
-  return point;
+  return out;
 }
 
 void sb_measured_band(SbMeasuredBand *out, const SbMeasured *m) {

@@ -357,11 +357,10 @@ static bool find_ramp(double *p, double *q, double coefficient[3], const Means *
   double best = INFINITY, trial[3];
   *p = *q = 0;
   for (double step = 1.0 / 40; step > 1e-4; step /= 4) {
-    const double centre[2] = {*p, *q};
+    const double at[2] = {*p, *q};
     const bool first = !isfinite(best);
-    const double from[2] = {first ? 0.03 : centre[0] - 4 * step,
-                            first ? 0.05 : centre[1] - 4 * step};
-    const double to[2] = {first ? 0.95 : centre[0] + 4 * step, first ? 0.97 : centre[1] + 4 * step};
+    const double from[2] = {first ? 0.03 : at[0] - 4 * step, first ? 0.05 : at[1] - 4 * step};
+    const double to[2] = {first ? 0.95 : at[0] + 4 * step, first ? 0.97 : at[1] + 4 * step};
     for (double x = from[0]; x <= to[0]; x += step) {
       for (double z = fmax(from[1], x + 0.004); z <= to[1]; z += step) {
         const double square = ramp_squares(trial, of, x, z);

@@ -53,8 +53,7 @@ double sb_scan_length(const char *unit) {
   return *name != '\0' && sb_unit_scale(&value, unit, "m", "µm", NULL) ? value : 0;
 }
 
-static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                        GError **error) {
+static bool read_format(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
   static const struct {
     const char *start;
     SbScanReader *read;
@@ -62,25 +61,25 @@ static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                  {"PK\x03\x04", sb_scan_parse_x3p}, {"aISO-1.0", sb_scan_parse_sdf},
                  {"aBCR-1.0", sb_scan_parse_sdf},   {"bISO-1.0", sb_scan_parse_sdf},
                  {"bBCR-1.0", sb_scan_parse_sdf},   {"", sb_scan_parse_text}};
-  const gsize length = (gsize)(bytes.end - bytes.at);
+  const gsize length = (gsize)(file.end - file.at);
   gsize format = 0;
   for (gsize skip; skip = strlen(formats[format].start),
-                   skip > length || memcmp(bytes.at, formats[format].start, skip) != 0;) {
+                   skip > length || memcmp(file.at, formats[format].start, skip) != 0;) {
     format++;
   }
-  if (*formats[format].start != '\0' && (choices->unit > 0 || choices->lateral_unit > 0)) {
-    return sb_app_error_choose(error, choices->unit > 0 ? "unit" : "lateral-unit", "",
+  if (*formats[format].start != '\0' && (wish->unit > 0 || wish->lateral_unit > 0)) {
+    return sb_app_error_choose(error, wish->unit > 0 ? "unit" : "lateral-unit", "",
                                "states its own units, which only a text file may lack");
   }
-  if (format != 0 && choices->channel != NULL) {
+  if (format != 0 && wish->channel != NULL) {
     return sb_app_error_choose(error, "channel", "", "has no channels, which a .gwy has");
   }
-  if (!formats[format].read(out, bytes, choices, error)) {
+  if (!formats[format].read(out, file, wish, error)) {
     return false;
   }
   SbHeights *h = &out->heights;
-  if (choices->spacing > 0) {
-    h->dx = h->dy = choices->spacing;
+  if (wish->spacing > 0) {
+    h->dx = h->dy = wish->spacing;
   }
   if (!(isfinite(h->dx) && h->dx > 0 && (h->rows == 1 || (isfinite(h->dy) && h->dy > 0)))) {
     return sb_app_error_input(error, "has no distance between its points");

@@ -127,10 +127,9 @@ static bool read_field(Field *out, const Component *field, GError **error) {
 }
 
 // Finds "/ID/NAME" in the container.
-static bool find_of(Component *out, const Component *container, char kind, long id,
-                    const char *name) {
+static bool find_of(Component *out, const Component *from, char kind, long id, const char *name) {
   g_autofree char *path = g_strdup_printf("/%ld/%s", id, name);
-  return find(out, container, kind, path);
+  return find(out, from, kind, path);
 }
 
 // Finds the data of the channel that is requested, else of the only one of heights, and the title,
@@ -224,22 +223,21 @@ static bool read_channel(SbScan *out, const Component *channel, GError **error) 
   return true;
 }
 
-bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                       GError **error) {
+bool sb_scan_parse_gwy(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
   out->format = "Gwyddion";
-  bytes.at += 4;
+  file.at += 4;
   SbScanBytes content;
-  const char *class = take_object(&bytes, &content);
+  const char *class = take_object(&file, &content);
   if (g_strcmp0(class, "GwyContainer") != 0) {
     return sb_app_error_input(error, "contains no GwyContainer, or is cut short");
   }
   const Component container = {.value = content.at, .count = (size_t)(content.end - content.at)};
   Component data, title = {0}, mask;
-  const long id = choose(&data, &title, &container, choices->channel, error);
+  const long id = choose(&data, &title, &container, wish->channel, error);
   if (id < 0 || !read_channel(out, &data, error)) {
     return false;
   }
   out->title = g_strdup((const char *)title.value);
-  return choices->ignore_mask || !find_of(&mask, &container, 'o', id, "mask") ||
+  return wish->ignore_mask || !find_of(&mask, &container, 'o', id, "mask") ||
          g_strcmp0(mask.object, "GwyDataField") != 0 || apply_mask(out, &mask, error);
 }

@@ -14,12 +14,11 @@ typedef struct {
   const guchar *at, *end; // first byte, and the one after the last
 } SbScanBytes;
 
-// Reads one format. The caller has checked that `bytes` begin with the format's signature, and
+// Reads one format. The caller has checked that `file` begins with the format's signature, and
 // passes `out` with all zeros but an empty list of notes. Returns false with SB_APP_ERROR whose
 // message does not name the file; the caller clears `out` then. Sets the heights, their dx and dy
-// (0 or NaN: the file states none), the format and the title; the caller applies choices->spacing.
-typedef bool SbScanReader(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                          GError **error);
+// (0 or NaN: the file states none), the format and the title; the caller applies wish->spacing.
+typedef bool SbScanReader(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error);
 SbScanReader sb_scan_parse_text;
 SbScanReader sb_scan_parse_gwy;
 SbScanReader sb_scan_parse_sur;

@@ -431,10 +431,9 @@ static bool read_entry_text(SbScan *out, Text *text, const SbScanChoices *choice
     return false;
   }
   // Heights are in the last column; those at the end of single precision mark void points.
-  const gsize stride = matrix ? 1 : text->matrix.columns,
-              first = matrix ? 0 : text->use[columns - 1];
+  const gsize step = matrix ? 1 : text->matrix.columns, first = matrix ? 0 : text->use[columns - 1];
   const double low = 0x1p127 * (1 - 1e-4), high = 0x1p128;
-  for (gsize i = first; i < text->matrix.value->len; i += stride) {
+  for (gsize i = first; i < text->matrix.value->len; i += step) {
     double *z = &g_array_index(text->matrix.value, double, i);
     *z = *z == h.missing || (fabs(*z) >= low && fabs(*z) <= high) ? NAN : h.vertical * *z;
   }
@@ -444,7 +443,7 @@ static bool read_entry_text(SbScan *out, Text *text, const SbScanChoices *choice
   out->heights.dy = h.step[1];
   if (!(matrix   ? take_numbers(out, text, 0, 1, width, height, error)
         : points ? take_grid(out, text, grid, h.lateral, error)
-                 : take_numbers(out, text, first, stride, height, 1, error) &&
+                 : take_numbers(out, text, first, step, height, 1, error) &&
                        (columns == 1 || find_step(out, text, h.lateral, error)))) {
     return false;
   }
@@ -452,13 +451,12 @@ static bool read_entry_text(SbScan *out, Text *text, const SbScanChoices *choice
          sb_app_error_choose(error, "spacing", NULL, "does not state the distance of its points");
 }
 
-bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                        GError **error) {
-  const SbTextTableDialect wish = {.matrix = true, .decimal = choices->decimal};
+bool sb_scan_parse_text(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
+  const SbTextTableDialect form = {.matrix = true, .decimal = wish->decimal};
   g_autoptr(GPtrArray) issues = sb_issues_new();
   g_autoptr(GPtrArray) entries = g_ptr_array_new_with_free_func(entry_free);
   g_autoptr(SbTextTable) table =
-      sb_text_table_parse(bytes.at, (gsize)(bytes.end - bytes.at), &wish, "", issues);
+      sb_text_table_parse(file.at, (gsize)(file.end - file.at), &form, "", issues);
   Text text = {.entries = entries, .table = table, .use = {0, 1, 2}};
   const bool read = table != NULL &&
                     sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
@@ -478,7 +476,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                 text.matrix.other, text.matrix.other_line);
   }
   text.axes = text.matrix.columns;
-  const bool good = read_entry_text(out, &text, choices, error);
+  const bool good = read_entry_text(out, &text, wish, error);
   g_array_unref(text.matrix.value);
   return good;
 }

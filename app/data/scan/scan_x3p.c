@@ -197,13 +197,12 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packe
   return true;
 }
 
-bool sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                       GError **error) {
-  const size_t packed = (size_t)(bytes.end - bytes.at);
+bool sb_scan_parse_x3p(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
+  const size_t packed = (size_t)(file.end - file.at);
   out->format = "X3P";
   zip_error_t problem;
   zip_error_init(&problem);
-  zip_source_t *source = zip_source_buffer_create(bytes.at, packed, 0, &problem);
+  zip_source_t *source = zip_source_buffer_create(file.at, packed, 0, &problem);
   zip_t *zip = source != NULL ? zip_open_from_source(source, ZIP_RDONLY, &problem) : NULL;
   bool good = zip != NULL;
   if (good) {
