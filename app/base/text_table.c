@@ -208,9 +208,8 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
 
 // Whether two lines are rows of one table: numbers, times and texts are in the same columns. A cell
 // may be empty; in a matrix, a row may have another length.
-static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
-                       const SbTextTableDialect *dialect) {
-  if (dialect->matrix) {
+static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b, bool matrix) {
+  if (matrix) {
     return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 && a->decimals == b->decimals;
   }
   return a->cells <= b->span && b->cells <= a->span && (a->texts & (b->numeric | b->clocks)) == 0 &&
@@ -232,7 +231,7 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
         sb_text_table_shape(&g_array_index(sample->line, GString, i), dialect);
     names = (size_t)__builtin_popcountll(shape.texts) == shape.cells ? shape.cells : names;
     size_t at = 0;
-    while (at < count && !same_shape(&seen[at], &shape, dialect)) {
+    while (at < count && !same_shape(&seen[at], &shape, dialect->matrix)) {
       at++;
     }
     if (!is_row(&shape, dialect) || at == SHAPES) {
@@ -358,7 +357,8 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
   const SbTextTableShape own = sb_text_table_shape(line, &table->dialect);
-  return (own.numeric | own.clocks) != 0 && same_shape(&own, &table->file->shape, &table->dialect);
+  return (own.numeric | own.clocks) != 0 &&
+         same_shape(&own, &table->file->shape, table->dialect.matrix);
 }
 
 // Finds the line where the longest block of rows begins, and the names and units above the block.

@@ -11,14 +11,8 @@
 
 // Pieces, entities read, entities placed and layers with pieces of a file; nested blocks, of which
 // one may contain itself; different entities left out.
-enum {
-  DXF_PIECES_MAX = 100000,
-  ENTITIES_MAX = 1000000,
-  PLACED_MAX = 100000,
-  LAYERS_MAX = 200,
-  DXF_DEPTH_MAX = 8,
-  LEFT_OUT_MAX = 20
-};
+enum { DXF_PIECES_MAX = 100000, ENTITIES_MAX = 1000000, PLACED_MAX = 100000, LAYERS_MAX = 200 };
+enum { DXF_DEPTH_MAX = 8, LEFT_OUT_MAX = 20 };
 
 // Ends are one point within this, unless `join` is given; drawings round to a thousandth of their
 // unit at worst. Larger gaps that may be errors of drawing; distance of an axis below all [m].

@@ -3,8 +3,6 @@
 // through a vertex that is farthest from the axis, where diameters are those of the vertices.
 #include "app/cad/cad_private.h"
 
-#include "app/cad/stl.h"
-
 #include "engine/mechanism/vector3.h"
 
 // Sides that a valve's part may have [m]; how far the half-plane is from the vertex, so that no

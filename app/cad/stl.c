@@ -1,6 +1,4 @@
-// See stl.h.
-#include "app/cad/stl.h"
-
+// STL files; see cad.h.
 #include "app/base/bytes.h"
 #include "app/base/reader.h"
 #include "app/cad/cad_private.h"

@@ -1,5 +1,5 @@
-// See scan_figures.h.
-#include "app/data/scan/scan_figures.h"
+// See scan.h.
+#include "app/data/scan/scan.h"
 
 #include "engine/valve/model/params.h"
 
