@@ -50,8 +50,6 @@ void sb_cad_free(SbCad *cad) {
   g_free(cad);
 }
 
-// ---- Lands, bores and grooves: what is cylindrical on a half-section ----
-
 // Two radii that are one [m]; and the shortest cylinder that counts for more than a rounded corner.
 static const double EQUAL = 1e-7, SHORTEST = 50e-6;
 
@@ -119,8 +117,6 @@ static void add_features(SbCadBody *body) {
   }
   g_array_sort(body->features, by_start);
 }
-
-// ---- Completion ----
 
 static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
   const double sign = choices->flip ? -1 : 1;
@@ -217,8 +213,6 @@ SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error
              ? sb_cad_parse_stl(text, size, shown, choices, error)
              : sb_cad_parse_dxf(text, size, shown, choices, error);
 }
-
-// ---- Half-profiles as text ----
 
 static bool read_point(SbProfilePoint *out, const char *word, double scale) {
   g_auto(GStrv) numbers = g_strsplit(word, ",", -1);

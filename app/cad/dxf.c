@@ -41,8 +41,6 @@ typedef struct {
   double scale; // its length [m]
 } Drawing;
 
-// ---- Placing ----
-
 // Returns the value of a name in any case.
 static gpointer find(GHashTable *table, const char *name) {
   g_autofree char *key = g_ascii_strdown(name, -1);
@@ -206,8 +204,6 @@ static bool place_block(Drawing *drawing, const Block *block, const SbDxfMap *wa
   sb_dxf_entity_clear(&entity);
   return good;
 }
-
-// ---- The file ----
 
 static void block_free(gpointer data) {
   Block *block = data;

@@ -37,8 +37,6 @@ void sb_measured_free(SbMeasured *measured) {
   g_free(measured);
 }
 
-// ---- Columns ----
-
 // Whether a column's name has one of the channel's words.
 static bool name_fits(const char *name, SbChannel channel) {
   g_autofree char *spaced = g_strdelimit(g_strdup(name), "_", ' ');
@@ -284,8 +282,6 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   }
   return true;
 }
-
-// ---- Rows ----
 
 // Makes the forces of blocks behind a blank line or names that do not continue the table not a
 // number. Two of these are true of them: the time goes back; the displacement jumps further than

@@ -30,8 +30,6 @@ static double median_force(const SbMeasured *m, size_t begin, size_t end, double
   return sb_number_median(value, count);
 }
 
-// ---- Cycles ----
-
 // Ends of strokes: rows where the displacement turns by more than a fifth of its range, the first
 // and the last row included. Owned by the caller.
 static GArray *find_turns(const SbMeasured *m) {
@@ -143,8 +141,6 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   }
   return true;
 }
-
-// ---- Zero and compliance ----
 
 // Of a cycle's in-stroke: rows up to where the force reaches nine tenths of its sliding level.
 typedef struct {
@@ -276,8 +272,6 @@ static void settle_turns(SbMeasured *m) {
   }
 }
 
-// ---- Noise ----
-
 static void find_noise(SbMeasured *m) {
   const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
   const double stroke = m->displacement[cycle->turn];
@@ -294,8 +288,6 @@ static void find_noise(SbMeasured *m) {
     m->no_load_deviation = m->noise / sqrt((double)m->no_load_rows);
   }
 }
-
-// ---- Ramps ----
 
 enum { BINS = 160 };
 
@@ -399,8 +391,6 @@ static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double strok
     }
   }
 }
-
-// ---- Stages ----
 
 // How much higher the force can have become between a row and the next, where the stem slipped
 // somewhere between them while the force rose at its rate. A row between two others of the record's

@@ -30,8 +30,6 @@ typedef struct {
   gsize axes, use[3];       // columns in use: x, y, z; x, z; or z; above 3: a matrix
 } Text;
 
-// ---- Header ----
-
 static void entry_free(gpointer data) {
   Entry *entry = data;
   g_free(entry->name);
@@ -89,8 +87,6 @@ static const Entry *find_entry(const Text *text, const char *key, bool length) {
   }
   return found;
 }
-
-// ---- Points ----
 
 // A step may differ by this part of the mean one: coordinates are rounded.
 static const double uneven_max = 0.02;
@@ -201,8 +197,6 @@ static bool find_step(SbScan *out, const Text *text, double lateral, GError **er
   out->heights.dx = lateral * fabs(step);
   return true;
 }
-
-// ---- Sizes and units ----
 
 // Finds the columns x, y and z by their names. Of two or three columns, those with other names are
 // the remaining ones in this order. False with an error: two may be one of them, or form no grid.
