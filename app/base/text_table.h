@@ -4,18 +4,15 @@
 //
 // Cells are separated by tab, semicolon, comma, | or blanks, and may be in double quotes. Numbers
 // have a decimal point or comma, may have the other one (or an apostrophe or blank) between
-// thousands, may have a typographic minus, and are rounded once: the same digits give the same
-// double in every dialect. A time can be a time of day, 10:15:00.25, with or without a date. Lines
-// that begin with #, % or ! are comments.
-//
-// The table is the longest block of rows with the same cells. A line of names above rows begins a
-// block, directly after a row if it names each column, as does a line of units; blocks under the
-// same names and units are one. Other rows, such as those of a results table, are not read. The
-// lines above the table are its header: its last ones give names and units. A unit is in brackets,
-// follows "in", "/", "_" or a blank, or is in a line of units.
-//
-// An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
-// interpretations in the message. The text is in memory until the table is freed.
+// thousands, may have a typographic minus, and are rounded once: equal digits give equal doubles. A
+// time can be a time of day, 10:15:00.25, with or without a date. Lines that begin with #, % or !
+// are comments. The table is the longest block of rows with the same cells. A line of names above
+// rows begins a block, directly after a row if it names each column, as does a line of units;
+// blocks under the same names and units are one. Other rows, such as those of a results table, are
+// not read. The lines above the table are its header: its last ones give names and units. A unit is
+// in brackets, follows "in", "/", "_" or a blank, or is in a line of units. An ambiguous file (all
+// commas before three digits: decimals or thousands?) is refused with both interpretations in the
+// message. The text is in memory until the table is freed.
 #pragma once
 
 #include "app/base/issue.h"

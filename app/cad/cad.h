@@ -6,9 +6,8 @@
 // An STL is a mesh: each of its connected shells is a body, which is measured and cut here. In a
 // DXF each closed outline is a body, or a cavity of the one around it on its layer. All give
 // half-profiles of straight pieces and arcs in the form of the key [part.NAME] profile; other
-// curves are approximated by arcs within SB_CAD_TOLERANCE. Of a body that the half-plane cuts into
-// several outlines, the profile is the outline with the largest revolved volume; `solid` is always
-// the complete body.
+// curves are approximated by arcs within SB_CAD_TOLERANCE. Of several outlines of a cut body, the
+// profile is that with the largest revolved volume; `solid` is always the complete body.
 //
 // Coordinates: x along the axis of the bodies, 0 where the file's origin projects on it, then
 // reversed (`flip`) and moved (`shift`); r is the distance from the axis. The largest component of
@@ -101,14 +100,9 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
 
 // ---- Half-profiles as text, the value of the key [part.NAME] profile ----
 // A unit of length (any that udunits-2 knows), then x,r or x,r,bulge of each point, separated by
-// blanks or line ends:
-//
-//   mm 14,0 14,2.9 8,2.9 8,1.64
-//
-// x is axial, r the distance from the axis, bulge as in SbProfilePoint. A text that repeats its
-// first point is closed; another one is closed by the axis.
-
-// Example of such a text, for messages.
+// blanks or line ends. x is axial, r the distance from the axis, bulge as in SbProfilePoint. A text
+// that repeats its first point is closed; another one is closed by the axis. An example, for
+// messages:
 #define SB_PROFILE_FORM "mm 0,0 10,0 10,2 0,2"
 
 // Returns the points [m] of a text, 2 to SB_PROFILE_MAX, as an array of SbProfilePoint to be freed
@@ -126,16 +120,12 @@ void sb_profile_turn(GArray *points, bool closed);
 char *sb_cad_profile_text(const SbCadBody *body);
 
 // ---- Meshes ----
-// Triangle meshes from STL files, binary or text, for the mass of a part
-// (engine/mechanism/solid.h).
-//
-// The format states no unit: the caller states it. STL repeats its corners, and rounds each time.
-// Corners that differ by at most 1e-5 of the diagonal of the part's bounding box along every axis
-// (or by two units of single precision, far from the origin) become one vertex, the first of them.
-// Triangles that lose a corner by that are removed and counted. Volume and moments change by as
-// much. A file that is not STL, is incomplete, has more than SB_STL_TRIANGLES_MAX triangles or a
-// number that is not finite is refused.
-
+// Triangle meshes from STL files, binary or text. The format states no unit: the caller states it.
+// STL repeats its corners, and rounds each time. Corners that differ by at most 1e-5 of the
+// diagonal of the part's bounding box along every axis (or by two units of single precision, far
+// from the origin) become one vertex, the first of them. Triangles that lose a corner by that are
+// removed and counted. Volume and moments change by as much. A file that is not STL, is incomplete,
+// has more than SB_STL_TRIANGLES_MAX triangles or a number that is not finite is refused.
 enum { SB_STL_TRIANGLES_MAX = 2000000 };
 
 // A mesh. Freed by sb_stl_clear().

@@ -168,8 +168,7 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {
-      const SbPiece piece = {at[0][0], at[0][1], at[1][0], at[1][1], 0};
-      g_array_append_val(pieces, piece);
+      g_array_append_vals(pieces, &(SbPiece){at[0][0], at[0][1], at[1][0], at[1][1], 0}, 1);
     }
   }
   return pieces;

@@ -76,9 +76,10 @@ static void clip(GArray *out, SbPiece piece, double gap) {
       to[1] = 0;
     }
     if (high > gap) {
-      const SbPiece kept = {from[0], from[1], to[0], to[1],
-                            tan(atan(piece.bulge) * (at[i] - at[i - 1]))};
-      g_array_append_val(out, kept);
+      g_array_append_vals(
+          out,
+          &(SbPiece){from[0], from[1], to[0], to[1], tan(atan(piece.bulge) * (at[i] - at[i - 1]))},
+          1);
     }
     memcpy(from, to, sizeof from);
   }
@@ -131,13 +132,12 @@ static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
   }
   for (guint i = 0; i < chain->len; i++) {
     const SbPiece *piece = &g_array_index(chain, SbPiece, i);
-    const SbProfilePoint point = {piece->x0, fmax(piece->y0, 0), piece->bulge};
-    g_array_append_val(body->profile, point);
+    g_array_append_vals(body->profile,
+                        &(SbProfilePoint){piece->x0, fmax(piece->y0, 0), piece->bulge}, 1);
   }
   if (!closed) {
     const SbPiece *last = &g_array_index(chain, SbPiece, chain->len - 1);
-    const SbProfilePoint point = {last->x1, 0, 0};
-    g_array_append_val(body->profile, point);
+    g_array_append_vals(body->profile, &(SbProfilePoint){last->x1, 0, 0}, 1);
   }
   body->closed = closed;
 }

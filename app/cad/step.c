@@ -121,8 +121,7 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
     } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {
       body->why = sb_printable(line + 4, strlen(line + 4));
     } else if (g_str_has_prefix(line, "piece ") && read_numbers(n, 5, line + 6)) {
-      const SbPiece piece = {n[0], n[1], n[2], n[3], n[4]};
-      g_array_append_val(pieces, piece);
+      g_array_append_vals(pieces, &(SbPiece){n[0], n[1], n[2], n[3], n[4]}, 1);
     }
   }
   return sb_app_error_input(error,

@@ -5,9 +5,8 @@
 // median. Stages: B is the last row before the stem moves by more than 1 % of the stroke at the
 // greatest force, taken half a row further up the rise; D the last row of the sliding force before
 // it rises on the stop, E the first one after that went; C and F are the upper ends of the ramp
-// between two levels, the knots of the continuous piecewise straight line (level, ramp, level on a
-// common slope) of least squares through means over equal pieces of the stroke. A ramp that
-// explains less than half of the squares a straight line leaves is none.
+// between two levels: knots of the continuous line (level, ramp, level on a common slope) of least
+// squares through means over equal pieces of the stroke, if it halves those of a straight line.
 #include "app/data/measured_private.h"
 
 #include "engine/numeric/dense.h"
@@ -118,8 +117,8 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
     const size_t turn = g_array_index(turns, size_t, k + 1);
     if (m->displacement[turn] > m->displacement[begin]) {
       const size_t end = k + 2 < turns->len ? g_array_index(turns, size_t, k + 2) : turn;
-      const SbMeasuredCycle cycle = {begin, turn, end + (end + 1 == m->count)};
-      g_array_append_val(m->cycle, cycle);
+      g_array_append_vals(m->cycle, &(SbMeasuredCycle){begin, turn, end + (end + 1 == m->count)},
+                          1);
     }
   }
   if (m->cycle->len == 0) {

@@ -2,12 +2,10 @@
 //
 //   text   a matrix; columns x z or, on a grid, x y z, by their names or in this order. Headers of
 //          ESRI, SPIP and Gwyddion ("Width: 5 µm"), or names with units ("x [mm], z [µm]").
-//   .gwy   Gwyddion's container (gwyddion.net, "Format of Gwyddion Files"); masked points are
-//          missing points.
+//   .gwy   Gwyddion's container ("Format of Gwyddion Files"); masked points are missing points.
 //   .sur   Digital Surf's surface and profile, format 2.00, 16 or 32 bits.
 //   .sdf   ISO 25178-71 (and BCR), text or binary.
-//   .x3p   ISO 25178-72 (ISO 5436-2): a zip of main.xml and binary data; only if the build found
-//          libzip.
+//   .x3p   ISO 25178-72 (ISO 5436-2): a zip of main.xml and binary data, if the build has libzip.
 //
 // The format follows from the first bytes, not from the name. Numbers are read independently of the
 // locale. Units and distances that the file does not state must be in the choices: nothing is
