@@ -18,17 +18,16 @@ void sb_cad_body_free(SbCadBody *body) {
 }
 
 char *sb_cad_axis_text(const double *through, const double *direction) {
-  char shown[6][SB_NUMBER_SIZE];
+  char text[6][SB_NUMBER_SIZE];
   const double length = hypot(hypot(direction[0], direction[1]), direction[2]);
   for (int i = 0; i < 6; i++) {
     const double value = i >= 3            ? direction[i - 3] / length
                          : through != NULL ? 1e3 * through[i]
                                            : 0;
-    sb_number_round(shown[i], fabs(value) < 1e-9 ? 0 : value, 6);
+    sb_number_round(text[i], fabs(value) < 1e-9 ? 0 : value, 6);
   }
-  g_autofree char *point = g_strdup_printf("through %s, %s, %s mm ", shown[0], shown[1], shown[2]);
-  return g_strdup_printf("%salong %s, %s, %s", through != NULL ? point : "", shown[3], shown[4],
-                         shown[5]);
+  g_autofree char *at = g_strdup_printf("through %s, %s, %s mm ", text[0], text[1], text[2]);
+  return g_strdup_printf("%salong %s, %s, %s", through ? at : "", text[3], text[4], text[5]);
 }
 
 SbCad *sb_cad_new(const char *format) {
@@ -87,13 +86,11 @@ static gint by_start(gconstpointer a, gconstpointer b) {
 
 // Appends lands, bores and grooves of a counter-clockwise profile.
 static void add_features(SbCadBody *body) {
-  const int points = (int)body->profile->len;
-  const int count = body->closed ? points : points - 1;
+  const SbProfile profile = sb_cad_profile(body);
+  const int count = (int)profile.count - !profile.closed;
   g_autofree SbPiece *pieces = g_new(SbPiece, MAX(count, 1));
   for (int i = 0; i < count; i++) {
-    const SbProfilePoint *p = &g_array_index(body->profile, SbProfilePoint, i);
-    const SbProfilePoint *q = &g_array_index(body->profile, SbProfilePoint, (i + 1) % points);
-    pieces[i] = (SbPiece){p->x, p->r, q->x, q->r, p->bulge};
+    pieces[i] = sb_profile_piece(&profile, (size_t)i);
   }
   for (int i = 0; i < count; i++) {
     const SbPiece *piece = &pieces[i];
@@ -179,10 +176,8 @@ static const double ROUND = 0.02;
 
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
   for (guint i = 0; i < cad->bodies->len; i++) {
-    settle_body(cad->bodies->pdata[i], choices);
-  }
-  for (guint i = 0; i < cad->bodies->len; i++) {
     SbCadBody *body = cad->bodies->pdata[i];
+    settle_body(body, choices);
     double(*const moment)[3] = body->solid.inertia;
     const double apart = hypot(moment[1][1] - moment[2][2], 2 * moment[1][2]);
     const double uneven = apart / (moment[1][1] + moment[2][2]);

@@ -6,7 +6,7 @@
 //
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
-//   solid V cx cy cz Ixx Ixy Ixz Iyy Iyz Izz     volume, centre, moments about it at 1 kg/m3
+//   solid V V cx cy cz Ixx Ixy ... Izz     SbSolid: volume, mass, centre, moments at 1 kg/m3
 //   note TEXT                         a warning
 //   why TEXT                          instead of pieces
 //   piece x0 y0 x1 y1 bulge           of the half-section, in no order
@@ -407,13 +407,12 @@ static void print_body(int body, int number) {
   SbSolid solid;
   bool coarse;
   check(!sb_cad_measure(&solid, body, &coarse), "the kernel cannot measure a body");
-  double value[10] = {SCALE * SCALE * SCALE * solid.volume};
+  double value[14] = {pow(SCALE, 3) * solid.volume, pow(SCALE, 3) * solid.volume};
   for (int k = 0; k < 9; k++) {
-    static const int at[] = {4, 5, 6, 5, 7, 8, 6, 8, 9};
-    value[1 + k % 3] = SCALE * solid.centre[k % 3];
-    value[at[k]] = pow(SCALE, 5) * solid.inertia[k / 3][k % 3];
+    value[2 + k % 3] = SCALE * solid.centre[k % 3];
+    value[5 + k] = pow(SCALE, 5) * solid.inertia[k / 3][k % 3];
   }
-  print_numbers("solid", value, 10);
+  print_numbers("solid", value, 14);
   if (coarse) {
     fprintf(out, "note its volume and moments can be wrong by 1 %%: its spline faces could not be "
                  "measured accurately\n");

@@ -20,8 +20,7 @@ typedef struct {
   SbSolid solid;
 } Shell;
 
-// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part, or
-// NULL.
+// Returns the only unit in which `side`, the longest one, is that of a valve's part; NULL: none.
 static const char *guess_unit(double side, GError **error) {
   static const char *const units[] = {"mm", "cm", "inch", "m", "um"};
   const char *found = NULL;

@@ -121,9 +121,8 @@ static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
     simplify(chain, 0);
   }
   if (chain->len + 1 > SB_PROFILE_MAX) {
-    g_array_set_size(chain, 0);
-    g_array_append_vals(chain, drawn->data, drawn->len);
-    simplify(chain, SB_CAD_TOLERANCE);
+    simplify(drawn, SB_CAD_TOLERANCE);
+    chain = drawn;
   }
   if (chain->len + 1 > SB_PROFILE_MAX) {
     body->why = g_strdup_printf("its half-section has %u pieces, more than %d", chain->len,

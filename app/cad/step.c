@@ -89,7 +89,7 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
   SbCadBody *body = NULL;
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
-    double n[10];
+    double n[sizeof(SbSolid) / sizeof(double)];
     if (strcmp(line, "error axis") == 0) {
       return sb_app_error_choose(error, "axis", "x\ny\nz", "has no face of revolution, so no axis");
     }
@@ -110,12 +110,10 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
       g_autofree char *name = sb_printable(line + 5, strlen(line + 5));
       body = sb_cad_body_new(name);
       g_ptr_array_add(cad->bodies, body);
-    } else if (body != NULL && g_str_has_prefix(line, "solid ") && read_numbers(n, 10, line + 6)) {
+    } else if (body != NULL && g_str_has_prefix(line, "solid ") &&
+               read_numbers(n, G_N_ELEMENTS(n), line + 6)) {
       body->measured = true;
-      body->solid = (SbSolid){n[0],
-                              n[0],
-                              {n[1], n[2], n[3]},
-                              {{n[4], n[5], n[6]}, {n[5], n[7], n[8]}, {n[6], n[8], n[9]}}};
+      memcpy(&body->solid, n, sizeof n);
     } else if (body != NULL && g_str_has_prefix(line, "note ")) {
       sb_note_add(cad->warnings, "%s: %s", body->name, line + 5);
     } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {

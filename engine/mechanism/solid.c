@@ -1,6 +1,5 @@
 // Revolved profiles. See solid.h and outline.h; meshes are in solid_mesh.c.
 #include "engine/mechanism/outline.h"
-#include "engine/numeric/arc.h"
 #include "engine/numeric/legendre.h"
 
 #include <float.h>
@@ -20,10 +19,14 @@ static size_t pieces_of(const SbProfile *p) {
   return by_axis(p) ? p->count - 1 : p->count;
 }
 
-// Piece i of an outline whose x counts from `origin`; y is r.
+// Piece i of an outline whose x counts from `origin`.
 static SbPiece piece_at(const SbProfile *p, size_t i, double origin) {
   const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
   return (SbPiece){a->x - origin, a->r, b->x - origin, b->r, a->bulge};
+}
+
+SbPiece sb_profile_piece(const SbProfile *profile, size_t index) {
+  return piece_at(profile, index, 0.0);
 }
 
 static double place_on(const SbPiece *s, const double at[2]) {

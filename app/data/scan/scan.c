@@ -19,27 +19,28 @@ bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error) 
   return out->heights.z != NULL;
 }
 
-static double number_at(const guchar *p, SbScanKind kind) {
-  return kind == SB_SCAN_U8      ? *p
-         : kind == SB_SCAN_U16   ? sb_bytes_u16(p)
-         : kind == SB_SCAN_U32   ? sb_bytes_u32(p)
-         : kind == SB_SCAN_I8    ? (gint8)*p
-         : kind == SB_SCAN_I16   ? (gint16)sb_bytes_u16(p)
-         : kind == SB_SCAN_I32   ? (gint32)sb_bytes_u32(p)
-         : kind == SB_SCAN_FLOAT ? sb_bytes_float(p)
-                                 : sb_bytes_double(p);
+static double number_at(const guchar *p, char kind) {
+  return kind == 'B'   ? *p
+         : kind == 'H' ? sb_bytes_u16(p)
+         : kind == 'I' ? sb_bytes_u32(p)
+         : kind == 'b' ? (gint8)*p
+         : kind == 'h' ? (gint16)sb_bytes_u16(p)
+         : kind == 'i' ? (gint32)sb_bytes_u32(p)
+         : kind == 'f' ? sb_bytes_float(p)
+                       : sb_bytes_double(p);
 }
 
-bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, SbScanKind kind, SbScanBytes bytes,
+bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, char kind, SbScanBytes bytes,
                        double scale, double missing, GError **error) {
-  static const guint8 sizes[SB_SCAN_KINDS] = {1, 2, 4, 4, 1, 2, 4, 8};
-  const size_t room = (size_t)(bytes.end - bytes.at) / sizes[kind];
+  static const guint8 sizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
+  const size_t size = sizes[strcspn(SB_SCAN_KINDS, (char[]){kind, '\0'})];
+  const size_t room = (size_t)(bytes.end - bytes.at) / size;
   if (columns > 0 && rows > 0 && (columns > room || rows > room / columns)) {
     return sb_app_error_input(error, "is cut short: %zu x %zu points announced", columns, rows);
   }
   const bool good = sb_scan_allocate(out, columns, rows, error);
   for (size_t i = 0; good && i < columns * rows; i++) {
-    const double value = number_at(bytes.at + i * sizes[kind], kind);
+    const double value = number_at(bytes.at + i * size, kind);
     out->heights.z[i] = value == missing || fabs(value) > 3.4e38 ? NAN : scale * value;
   }
   return good;

@@ -215,7 +215,7 @@ static bool read_channel(SbScan *out, const Component *channel, GError **error) 
                               field.unit_xy, field.unit_z);
   }
   const SbScanBytes data = {field.data, field.data + 8 * field.columns * field.rows};
-  if (!sb_scan_take_grid(out, field.columns, field.rows, SB_SCAN_DOUBLE, data, z, NAN, error)) {
+  if (!sb_scan_take_grid(out, field.columns, field.rows, 'd', data, z, NAN, error)) {
     return false;
   }
   out->heights.dx = xy * field.width / (double)field.columns;

@@ -30,23 +30,15 @@ SbScanReader sb_scan_parse_sdf;
 // points, more than SB_HEIGHTS_POINTS_MAX, or no memory.
 bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error);
 
-// Kinds of little-endian numbers, numbered as the DataType of ISO 25178-71.
-typedef enum {
-  SB_SCAN_U8,
-  SB_SCAN_U16,
-  SB_SCAN_U32,
-  SB_SCAN_FLOAT,
-  SB_SCAN_I8,
-  SB_SCAN_I16,
-  SB_SCAN_I32,
-  SB_SCAN_DOUBLE,
-  SB_SCAN_KINDS
-} SbScanKind;
+// Kinds of little-endian numbers, numbered as the DataType of ISO 25178-71: unsigned integers of 8,
+// 16 and 32 bits, float, signed integers of 8, 16 and 32 bits, double.
+#define SB_SCAN_KINDS "BHIfbhid"
 
 // Allocates and reads a grid from the first of `bytes`, row after row: heights are `scale` times
-// the numbers; the number `missing` (NaN: none) and those beyond single precision are missing
-// points. Returns false with an error of sb_scan_allocate(), or if there are too few bytes.
-bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, SbScanKind kind, SbScanBytes bytes,
+// the numbers, of a kind of SB_SCAN_KINDS; the number `missing` (NaN: none) and those beyond single
+// precision are missing points. Returns false with an error of sb_scan_allocate(), or if there are
+// too few bytes.
+bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, char kind, SbScanBytes bytes,
                        double scale, double missing, GError **error);
 
 // Returns the metres of a unit of length as files write it ("nm", "um", "mkm", "[nm]"); else 0.

@@ -5,7 +5,6 @@
 // compressed data and the check sum.
 #include "app/data/scan/scan_private.h"
 
-enum { COLUMNS, ROWS, X_STEP, Y_STEP, Z_STEP, COMPRESSION, TYPE, KEYS };
 enum { HEADER = 81 };
 
 // The text form: a matrix and header (scan_text_keys.def), without the lines between and behind.
@@ -18,9 +17,6 @@ static bool read_text(SbScan *out, SbScanBytes file, const SbScanChoices *wish, 
 }
 
 bool sb_scan_parse_sdf(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
-  static const gsize place[KEYS] = {42, 44, 46, 54, 62, 78, 79};
-  static const gsize size[KEYS] = {2, 2, 8, 8, 8, 1, 1};
-  double value[KEYS];
   const bool text = *file.at == 'a', good = text && read_text(out, file, wish, error);
   out->format = "surface data file";
   if (text) {
@@ -29,21 +25,19 @@ bool sb_scan_parse_sdf(SbScan *out, SbScanBytes file, const SbScanChoices *wish,
   if (file.end - file.at < HEADER) {
     return sb_app_error_input(error, "is cut short: no header of %d file", HEADER);
   }
-  for (int k = 0; k < KEYS; k++) {
-    const guchar *p = file.at + place[k];
-    value[k] = size[k] == 8 ? sb_bytes_double(p) : size[k] == 2 ? sb_bytes_u16(p) : *p;
-  }
+  const guchar *h = file.at;
+  const size_t columns = sb_bytes_u16(h + 42), rows = sb_bytes_u16(h + 44), type = h[79];
+  const double scale = sb_bytes_double(h + 62);
   file.at += HEADER;
-  if (!(value[COLUMNS] >= 1 && value[ROWS] >= 1 && isfinite(value[Z_STEP]) && value[Z_STEP] != 0)) {
+  if (!(columns >= 1 && rows >= 1 && isfinite(scale) && scale != 0)) {
     return sb_app_error_input(error, "has no NumPoints, NumProfiles or Zscale");
   }
-  if (value[TYPE] >= SB_SCAN_KINDS || value[COMPRESSION] > 0) {
+  if (type >= strlen(SB_SCAN_KINDS) || h[78] > 0) {
     return sb_app_error_input(error, "has compressed data or an unknown data type");
   }
-  out->heights.dx = value[X_STEP];
-  out->heights.dy = value[Y_STEP];
-  const SbScanKind kind = (SbScanKind)value[TYPE];
-  const double least[SB_SCAN_KINDS] = {NAN, NAN, NAN, NAN, G_MININT8, G_MININT16, G_MININT32, NAN};
-  return sb_scan_take_grid(out, (size_t)value[COLUMNS], (size_t)value[ROWS], kind, file,
-                           value[Z_STEP], least[kind], error);
+  out->heights.dx = sb_bytes_double(h + 46);
+  out->heights.dy = sb_bytes_double(h + 54);
+  const double least[] = {NAN, NAN, NAN, NAN, G_MININT8, G_MININT16, G_MININT32, NAN};
+  return sb_scan_take_grid(out, columns, rows, SB_SCAN_KINDS[type], file, scale, least[type],
+                           error);
 }

@@ -49,8 +49,8 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes file, const SbScanChoices *wish,
   const double absent = sb_bytes_u16(h + 86) != 0 ? (double)(gint32)sb_bytes_u32(h + 100) - 2 : NAN;
   if (!read_spacing(&step, h, 2, error) || !read_spacing(&out->heights.dx, h, 0, error) ||
       (rows > 1 && !read_spacing(&out->heights.dy, h, 1, error)) ||
-      !sb_scan_take_grid(out, (size_t)columns, (size_t)rows, bits == 16 ? SB_SCAN_I16 : SB_SCAN_I32,
-                         file, step, absent, error)) {
+      !sb_scan_take_grid(out, (size_t)columns, (size_t)rows, bits == 16 ? 'h' : 'i', file, step,
+                         absent, error)) {
     return false;
   }
   out->heights.dx = fabs(out->heights.dx);

@@ -142,8 +142,7 @@ static bool read_step(double *out, GHashTable *texts, char axis, GError **error)
 }
 
 static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packed, GError **error) {
-  static const char types[] = "ILFD";
-  static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
+  static const char types[] = "ILFD", kinds[] = "hifd";
   const char *link = text_of(texts, "record3/datalink/pointdatalink");
   const char *feature = text_of(texts, "record1/featuretype"),
              *type = text_of(texts, "record1/axes/cz/datatype");
