@@ -79,11 +79,6 @@ static double wall(double *height, const SbPiece *pieces, int count, int from, i
   return isnan(at) ? (start + end) / 2 : at;
 }
 
-static gint by_start(gconstpointer a, gconstpointer b) {
-  const SbCadFeature *one = a, *other = b;
-  return one->x0 < other->x0 ? -1 : one->x0 > other->x0;
-}
-
 // Appends lands, bores and grooves of a counter-clockwise profile.
 static void add_features(SbCadBody *body) {
   const SbProfile profile = sb_cad_profile(body);
@@ -100,19 +95,19 @@ static void add_features(SbCadBody *body) {
     }
     // Counter-clockwise: material is on the left, so an outer surface runs towards -x.
     const bool outer = piece->x1 < piece->x0;
-    SbCadFeature feature = {outer ? SB_CAD_LAND : SB_CAD_BORE, fmin(piece->x0, piece->x1),
-                            fmax(piece->x0, piece->x1), 2 * piece->y0, 0};
+    SbCadFeature feature = {fmin(piece->x0, piece->x1), fmax(piece->x0, piece->x1), 2 * piece->y0,
+                            0, outer ? SB_CAD_LAND : SB_CAD_BORE};
     if (outer) {
       double left, right;
       const double x0 = wall(&left, pieces, count, i, 1);
       const double x1 = wall(&right, pieces, count, i, -1);
       if (fmin(left, right) > SHORTEST) {
-        feature = (SbCadFeature){SB_CAD_GROOVE, x0, x1, 2 * piece->y0, fmin(left, right)};
+        feature = (SbCadFeature){x0, x1, 2 * piece->y0, fmin(left, right), SB_CAD_GROOVE};
       }
     }
     g_array_append_val(body->features, feature);
   }
-  g_array_sort(body->features, by_start);
+  g_array_sort(body->features, sb_number_compare); // by x0
 }
 
 static void settle_body(SbCadBody *body, const SbCadChoices *choices) {

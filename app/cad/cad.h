@@ -32,10 +32,10 @@ typedef enum { SB_CAD_LAND, SB_CAD_BORE, SB_CAD_GROOVE } SbCadKind;
 
 // A stretch of a half-section with one diameter.
 typedef struct {
-  SbCadKind kind;
   double x0, x1;   // ends, x0 < x1 [m]; of a groove its walls
   double diameter; // of the surface [m]; of a groove that of its floor
   double depth;    // of a groove, from the lower of its two shoulders [m]; else 0
+  SbCadKind kind;
 } SbCadFeature;
 
 // A body of revolution.

@@ -345,15 +345,11 @@ static double ramp_squares(double coefficient[3], const Means *of, double p, dou
 
 // The ramp of least squares; false where a straight line does nearly as well.
 static bool find_ramp(double *p, double *q, double coefficient[3], const Means *of) {
-  double best = INFINITY, trial[3];
+  double best = INFINITY, trial[3], low[2] = {0.03, 0.05}, high[2] = {0.95, 0.97};
   *p = *q = 0;
   for (double step = 1.0 / 40; step > 1e-4; step /= 4) {
-    const double at[2] = {*p, *q};
-    const bool first = !isfinite(best);
-    const double from[2] = {first ? 0.03 : at[0] - 4 * step, first ? 0.05 : at[1] - 4 * step};
-    const double to[2] = {first ? 0.95 : at[0] + 4 * step, first ? 0.97 : at[1] + 4 * step};
-    for (double x = from[0]; x <= to[0]; x += step) {
-      for (double z = fmax(from[1], x + 0.004); z <= to[1]; z += step) {
+    for (double x = low[0]; x <= high[0]; x += step) {
+      for (double z = fmax(low[1], x + 0.004); z <= high[1]; z += step) {
         const double square = ramp_squares(trial, of, x, z);
         if (square < best) {
           best = square;
@@ -361,6 +357,10 @@ static bool find_ramp(double *p, double *q, double coefficient[3], const Means *
           *q = z;
         }
       }
+    }
+    for (int k = 0; k < 2; k++) {
+      low[k] = (k == 0 ? *p : *q) - step;
+      high[k] = low[k] + 2 * step;
     }
   }
   const double line = ramp_squares(trial, of, 0, 0);

@@ -33,20 +33,11 @@ static const char *take_text(SbScanBytes *bytes) {
   return length < left ? (const char *)take(bytes, length + 1) : NULL;
 }
 
-static bool take_count(SbScanBytes *bytes, size_t *out) {
-  const guchar *p = take(bytes, 4);
-  *out = p != NULL ? sb_bytes_u32(p) : 0;
-  return p != NULL;
-}
-
 // Returns the class of an object and writes its content; NULL if it is not complete.
 static const char *take_object(SbScanBytes *bytes, SbScanBytes *content) {
   const char *name = take_text(bytes);
-  size_t size;
-  if (name == NULL || !take_count(bytes, &size)) {
-    return NULL;
-  }
-  content->at = take(bytes, size);
+  const guchar *size = name != NULL ? take(bytes, 4) : NULL;
+  content->at = size != NULL ? take(bytes, sb_bytes_u32(size)) : NULL;
   content->end = bytes->at;
   return content->at != NULL ? name : NULL;
 }
@@ -62,12 +53,12 @@ static bool take_component(Component *out, SbScanBytes *bytes) {
   }
   out->kind = (char)*kind;
   const char one = g_ascii_tolower(out->kind), *number = memchr(numbers, one, sizeof sizes);
-  size_t count = 1;
-  if (one != out->kind && !take_count(bytes, &count)) {
+  const guchar *length = one != out->kind ? take(bytes, 4) : NULL;
+  if (one != out->kind && length == NULL) {
     return false;
   }
   out->value = bytes->at;
-  out->count = count;
+  const size_t count = out->count = length != NULL ? sb_bytes_u32(length) : 1;
   if (number != NULL) {
     return take(bytes, sizes[number - numbers] * count) != NULL;
   }

@@ -53,33 +53,26 @@ static char *tidy_path(const char *path) {
   return g_strconcat("/", g_strdelimit(lower, "\\", '/'), NULL);
 }
 
-// Returns the index of a member by the path after the folder of main.xml; -1 without one. The case
-// of letters, the kind of slashes and a folder around everything do not matter: the least deep one
-// is returned, as folders of a resource fork that archivers add are deeper.
-static zip_int64_t find_member(zip_t *zip, const char *path) {
-  enum { MEMBERS_MAX = 10000 };
-  const zip_int64_t count = MIN(zip_get_num_entries(zip, 0), MEMBERS_MAX);
-  g_autofree char *wanted = tidy_path(path);
-  zip_int64_t found = -1;
-  size_t best = SIZE_MAX;
-  for (zip_int64_t i = 0; i < count; i++) {
-    const char *raw = zip_get_name(zip, (zip_uint64_t)i, 0);
-    g_autofree char *name = tidy_path(raw != NULL ? raw : "");
-    if (g_str_has_suffix(name, wanted) && strlen(name) < best) {
-      best = strlen(name);
-      found = i;
-    }
-  }
-  return found;
-}
-
-// A member's bytes; NULL with an error. Deflate packs 1032 to one at most: else it is a bomb.
+// Returns the bytes of a member by the path after the folder of main.xml; NULL with an error. The
+// case of letters, the kind of slashes and a folder around everything do not matter: the least deep
+// one is returned, as folders of a resource fork that archivers add are deeper. Deflate packs 1032
+// to one at most: else it is a bomb.
 static guchar *member(zip_t *zip, const char *name, size_t *size, size_t most, size_t packed,
                       GError **error) {
-  zip_stat_t about;
-  const zip_int64_t at = find_member(zip, name);
-  if (at < 0 || zip_stat_index(zip, (zip_uint64_t)at, 0, &about) != 0 ||
-      (about.valid & ZIP_STAT_SIZE) == 0) {
+  enum { MEMBERS_MAX = 10000, KNOWN = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_INDEX };
+  zip_stat_t about = {0}, each;
+  size_t best = SIZE_MAX;
+  g_autofree char *wanted = tidy_path(name);
+  for (zip_int64_t i = 0; i < MIN(zip_get_num_entries(zip, 0), MEMBERS_MAX); i++) {
+    const bool known =
+        zip_stat_index(zip, (zip_uint64_t)i, 0, &each) == 0 && (each.valid & KNOWN) == KNOWN;
+    g_autofree char *path = tidy_path(known ? each.name : "");
+    if (g_str_has_suffix(path, wanted) && strlen(path) < best) {
+      best = strlen(path);
+      about = each;
+    }
+  }
+  if (best == SIZE_MAX) {
     sb_app_error_input(error, "has no member \"%s\"", name);
     return NULL;
   }
@@ -89,7 +82,7 @@ static guchar *member(zip_t *zip, const char *name, size_t *size, size_t most, s
     return NULL;
   }
   guchar *out = g_try_malloc0(about.size + 1);
-  zip_file_t *file = out != NULL ? zip_fopen_index(zip, (zip_uint64_t)at, 0) : NULL;
+  zip_file_t *file = out != NULL ? zip_fopen_index(zip, about.index, 0) : NULL;
   const zip_int64_t got = file != NULL ? zip_fread(file, out, about.size) : -1;
   // The check sum is looked at when there is no more.
   char end;
