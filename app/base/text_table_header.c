@@ -102,9 +102,15 @@ static void add_cell(GPtrArray *out, const char *text, size_t length) {
 
 // Cells of a header line with a separator; 0 for two blanks or more.
 static char **cells_by(const char *line, size_t length, char separator) {
-  GPtrArray *out = g_ptr_array_new();
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-  const size_t cells = separator != '\0' ? sb_text_table_split(cell, line, length, separator) : 0;
+  if (separator == '\0') {
+    g_autofree char *copy = g_strstrip(g_strndup(line, length));
+    g_autoptr(GRegex) blanks = g_regex_new(" {2,}", G_REGEX_RAW, 0, NULL);
+    g_autofree char *text = g_regex_replace_literal(blanks, copy, -1, 0, "\t", 0, NULL);
+    return cells_by(text, strlen(text), '\t');
+  }
+  GPtrArray *out = g_ptr_array_new();
+  const size_t cells = sb_text_table_split(cell, line, length, separator);
   for (size_t i = 0; i < cells; i++) {
     add_cell(out, cell[i].text, cell[i].length);
     char *text = out->pdata[out->len - 1];
@@ -114,14 +120,6 @@ static char **cells_by(const char *line, size_t length, char separator) {
       g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
       g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
       g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
-    }
-  }
-  g_autofree char *copy = g_strndup(line, separator == '\0' ? length : 0);
-  g_auto(GStrv) parts = g_strsplit(copy, "  ", -1);
-  for (char **part = parts; *part != NULL; part++) {
-    g_strstrip(*part);
-    if (**part != '\0') {
-      add_cell(out, *part, strlen(*part));
     }
   }
   g_ptr_array_add(out, NULL);
@@ -259,7 +257,7 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
 
 void sb_text_table_take_header(SbTextTable *table) {
   enum { LOOKED = 12 };
-  bool named = false, united = false, stopped = false;
+  bool found[2] = {false}, stopped = false; // names, units
   for (size_t i = table->header_lines, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
     // A cell in quotes may have several lines.
     g_autoptr(GString) all = g_string_new(sb_text_table_line(table, i)->str);
@@ -273,13 +271,10 @@ void sb_text_table_take_header(SbTextTable *table) {
     // The rows of a block above, or the first line above the names that is not units, end it.
     stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;
     if (stopped || (!titled && !units)) {
-      stopped |= named && cells[0] != NULL;
-    } else if (units && !united) {
-      take_header_line(table, cells, true);
-      united = true;
-    } else if (!units && !named) {
-      take_header_line(table, cells, false);
-      named = true;
+      stopped |= found[0] && cells[0] != NULL;
+    } else if (!found[units]) {
+      take_header_line(table, cells, units);
+      found[units] = true;
     } else {
       stopped = true;
     }

@@ -154,10 +154,9 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
-  const char *wrong = NULL;
   bool good = true;
   int number = 0;
-  while (good && wrong == NULL && (guint)number < table->file->line->len) {
+  while (good && (guint)number < table->file->line->len) {
     const GString *text = sb_text_table_line(table, (size_t)number++);
     const bool above = (size_t)number <= table->header_lines, headed = block.headed;
     const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;
@@ -183,18 +182,15 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
           issues, table->file->shown, number, NULL, NULL,
           count < 0 ? "numbers expected, not \"%s\"" : "begins the table again: \"%s\"", shown);
     } else if ((count > 0 && (size_t)count > most) || out->value->len > 3 * most) {
-      wrong = "has too many numbers";
+      good = sb_issues_add(issues, table->file->shown, number, NULL, NULL, "has too many numbers");
     }
   }
   g_free(block.names);
-  if (good && wrong == NULL && 2 * out->other >= out->rows) {
+  if (good && 2 * out->other >= out->rows) {
     good = sb_issues_add(
         issues, table->file->shown, out->other_line, NULL, NULL,
         "%zu rows of numbers are another table than the %zu of the longest: remove one", out->other,
         out->rows);
-  }
-  if (good && wrong != NULL) {
-    good = sb_issues_add(issues, table->file->shown, number, NULL, NULL, "%s", wrong);
   }
   if (!good) {
     g_clear_pointer(&out->value, g_array_unref);
