@@ -13,10 +13,9 @@ typedef struct {
   bool quoted;  // one has a quote
 } Sample;
 
-// Largest table and longest line [bytes].
-enum { BYTES_MAX = 1 << 30, LONGEST_LINE = 1 << 26 };
+// Largest table, longest line, and start that is looked at for the encoding [bytes].
+enum { BYTES_MAX = 1 << 30, LONGEST_LINE = 1 << 26, HEAD_BYTES = 1 << 16 };
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
-enum { HEAD_BYTES = 1 << 16 }; // looked at for the encoding
 
 const char *const sb_text_table_encodings[] = {"any",      "utf-8",     "latin-1", "utf-16le",
                                                "utf-16be", "shift-jis", "gbk",     NULL};

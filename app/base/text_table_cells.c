@@ -125,8 +125,7 @@ bool sb_text_table_void(const SbTextTableCell *cell) {
   return *word != NULL;
 }
 
-// Rewrites the number with a decimal point and no other marks for sb_number_parse(), which checks
-// it.
+// Rewrites the number with no mark but a decimal point for sb_number_parse(), which checks it.
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw) {
   static const char *const minus[] = {"-", "\xe2\x88\x92", "\xe2\x80\x93", "\xef\xbc\x8d", NULL};

@@ -101,8 +101,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
 // ---- Half-profiles as text, the value of the key [part.NAME] profile ----
 // A unit of length (any that udunits-2 knows), then x,r or x,r,bulge of each point, separated by
 // blanks or line ends. x is axial, r the distance from the axis, bulge as in SbProfilePoint. A text
-// that repeats its first point is closed; another one is closed by the axis. An example, for
-// messages:
+// that repeats its first point is closed; another one is closed by the axis. An example:
 #define SB_PROFILE_FORM "mm 0,0 10,0 10,2 0,2"
 
 // Returns the points [m] of a text, 2 to SB_PROFILE_MAX, as an array of SbProfilePoint to be freed

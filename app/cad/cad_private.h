@@ -69,8 +69,7 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
 // outline with the largest revolved volume, with a warning if there are several; or body->why.
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
-// Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free() or its
-// drawing.
+// Returns a body with a copy of `name`, empty. Freed by sb_cad_body_free() or with its drawing.
 SbCadBody *sb_cad_body_new(const char *name);
 
 // Returns the half-section of a body, borrowed.

@@ -28,8 +28,7 @@ static Drawn drawn_of(const SbPiece piece) {
   return drawn;
 }
 
-// Divides a piece of `all` (of Drawn) at an end of the piece `by`, if it is on it: appends the
-// rest.
+// Divides a piece of `all` (of Drawn) at an end of the piece `by` that is on it; false: none is.
 static bool divide_outline(GArray *all, guint index, guint by, double same) {
   Drawn *whole = &g_array_index(all, Drawn, index), *other = &g_array_index(all, Drawn, by);
   const SbPiece piece = whole->piece, *ends = &other->piece;

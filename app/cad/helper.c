@@ -119,9 +119,8 @@ static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
   return good;
 }
 
-// Writes the direction of an axis, and its point nearest to the centre or the centre of a ball to
-// `p`, from the last `count` right singular vectors (columns of v[6][6], d and m of a line each).
-// Returns `count`, or 0 if they are no axis.
+// Writes the direction of an axis, and to `p` its point nearest to the centre or the centre of a
+// ball, from the last `count` columns of v[6][6] (d and m of a line). Returns `count`; 0: no axis.
 static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
   double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
   for (int j = 6 - count; j < 6; j++) {
@@ -157,9 +156,8 @@ static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) 
 
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
 // the null space of this linear system (the line complex of the normals: H. Pottmann, J. Wallner,
-// Computational Line Geometry, Springer 2001, section 3.4): one dimension for a face of revolution,
-// two for a cylinder, three for a ball. Returns that number, with the centre of a ball as the
-// point; 0 for any other face, such as a plane.
+// Computational Line Geometry, Springer 2001, section 3.4). Returns its dimension: 1 for a face of
+// revolution, 2 for a cylinder, 3 for a ball (its centre is the point); 0 for others, as a plane.
 static int axis_of(Axis *axis, int tag) {
   double q[SAMPLES][3], n[SAMPLES][3], centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
   if (!sample(q, n, tag)) {

@@ -26,7 +26,7 @@ static const char *guess_unit(double side, GError **error) {
   const char *found = NULL;
   guint count = 0;
   g_autoptr(GString) all = g_string_new(NULL), values = g_string_new(NULL);
-  g_autoptr(GString) others = g_string_new("that of a valve's part, 1 to 40 mm, in none: ");
+  g_autoptr(GString) others = g_string_new(NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(units); i++) {
     double scale;
     if (!sb_unit_scale(&scale, units[i], "m", "mm", NULL)) {
@@ -34,9 +34,8 @@ static const char *guess_unit(double side, GError **error) {
     }
     const bool fits = side * scale >= SIDE_LEAST && side * scale <= SIDE_MOST;
     GString *list = fits ? all : others;
-    g_string_append_printf(list, "%s%.3g mm in %s",
-                           list->len > 0 && list->str[list->len - 1] != ' ' ? ", " : "",
-                           1e3 * side * scale, units[i]);
+    g_string_append_printf(list, "%s%.3g mm in %s", list->len > 0 ? ", " : "", 1e3 * side * scale,
+                           units[i]);
     if (fits) {
       g_string_append_printf(values, "%s%s", count++ > 0 ? "\n" : "", units[i]);
       found = units[i];
@@ -44,7 +43,8 @@ static const char *guess_unit(double side, GError **error) {
   }
   if (count != 1) {
     sb_app_error_choose(error, "unit", count > 0 ? values->str : NULL,
-                        "an STL file states no unit, and its longest side of %.4g is %s", side,
+                        "an STL file states no unit, and its longest side of %.4g is %s%s", side,
+                        count > 0 ? "" : "that of a valve's part, 1 to 40 mm, in none: ",
                         count > 0 ? all->str : others->str);
   }
   return count == 1 ? found : NULL;

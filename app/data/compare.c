@@ -69,8 +69,7 @@ double sb_loop_force(const SbLoop *loop, int way, double displacement) {
   return force[low] + t * (force[high] - force[low]);
 }
 
-// Whether the stem slides, and in which way. One that jams on its return rests where the cycle
-// ends.
+// Whether the stem slides, and in which way. If it jams on the return, it rests at the cycle's end.
 static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
   const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
   const double margin = 0.01 * stroke;

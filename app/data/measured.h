@@ -1,14 +1,13 @@
 // A measured loop of force against displacement, read from a table of numbers
 // (app/base/text_table.h) and made comparable with a run: SI units, compression positive,
 // displacement increasing on the in-stroke, and the stem's own displacement from its rest position.
-// SbMeasured states what was found in the data and how. Keys of the group [data NAME], which
-// docs/measured-data.md lists, replace what would be found. How these are found: Direction:
-// friction dissipates energy, so the force is greater on the in-stroke; the canister's pressure
-// pushes outwards, so the mean force is positive. Compliance: the slope of displacement against
-// force before the first slip, while the stem is at rest. Zero: the displacement of these rows, and
-// the mean force of the approach before them. Stages B to F: see measured_find.c. Without a column
-// of displacement, the displacement is speed times time up to the maximum force and back; then only
-// the first cycle is used.
+// SbMeasured states what was found in the data and how. Keys of the group [data NAME]
+// (docs/measured-data.md) replace what would be found. Direction: friction dissipates energy, so
+// the force is greater on the in-stroke; the canister's pressure pushes outwards, so the mean force
+// is positive. Compliance: the slope of displacement against force before the first slip, while the
+// stem is at rest. Zero: the displacement of these rows, and the mean force of the approach before
+// them. Stages B to F: see measured_find.c. Without a column of displacement, it is speed times
+// time up to the maximum force and back; then only the first cycle is used.
 #pragma once
 
 #include "app/base/text_table.h"

@@ -36,8 +36,7 @@ bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error);
 
 // Allocates and reads a grid from the first of `bytes`, row after row: heights are `scale` times
 // the numbers, of a kind of SB_SCAN_KINDS; the number `missing` (NaN: none) and those beyond single
-// precision are missing points. Returns false with an error of sb_scan_allocate(), or if there are
-// too few bytes.
+// precision are missing points. False with an error of sb_scan_allocate(), or: too few bytes.
 bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, char kind, SbScanBytes bytes,
                        double scale, double missing, GError **error);
 

@@ -54,9 +54,8 @@ static char *tidy_path(const char *path) {
 }
 
 // Returns the bytes of a member by the path after the folder of main.xml; NULL with an error. The
-// case of letters, the kind of slashes and a folder around everything do not matter: the least deep
-// one is returned, as folders of a resource fork that archivers add are deeper. Deflate packs 1032
-// to one at most: else it is a bomb.
+// case of letters, the kind of slashes and a folder around everything do not matter: it is the
+// least deep one, unlike resource forks. Deflate packs 1032 to one at most: else it is a bomb.
 static guchar *member(zip_t *zip, const char *name, size_t *size, size_t most, size_t packed,
                       GError **error) {
   enum { MEMBERS_MAX = 10000, KNOWN = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_INDEX };
