@@ -37,8 +37,8 @@ static bool is_paired(const guint8 *bytes, size_t length, bool gbk) {
   return common >= 2;
 }
 
-// From the first `looked` of `length` bytes.
-static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
+static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t length) {
+  const size_t looked = MIN(length, HEAD_BYTES);
   if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0)) {
     return bytes[0] == 0xff ? SB_TEXT_TABLE_UTF16LE : SB_TEXT_TABLE_UTF16BE;
   }
@@ -89,10 +89,9 @@ static void add_old(GString *text, const char *line, size_t length, SbTextTableE
 
 // Splits bytes into lines. Returns NULL, or why they are not the text of a table; static.
 static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t length,
-                               SbTextTableEncoding encoding) {
+                               SbTextTableEncoding code) {
   const size_t looked = MIN(length, HEAD_BYTES);
-  const bool big = encoding == SB_TEXT_TABLE_UTF16BE,
-             wide = big || encoding == SB_TEXT_TABLE_UTF16LE;
+  const bool big = code == SB_TEXT_TABLE_UTF16BE, wide = big || code == SB_TEXT_TABLE_UTF16LE;
   const bool newline = memchr(bytes, '\n', looked) != NULL || memchr(bytes, '\r', looked) == NULL;
   GString *narrowed = wide ? narrow((const guint8 *)bytes, length, big) : NULL;
   const char *from = wide ? narrowed->str : bytes, *end = from + (wide ? narrowed->len : length);
@@ -108,10 +107,10 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
     }
     GString line = {.allocated_len = file->text->len};
     // Programs mix encodings.
-    if (wide || encoding == SB_TEXT_TABLE_UTF8 || g_utf8_validate(from, last - from, NULL)) {
+    if (wide || code == SB_TEXT_TABLE_UTF8 || g_utf8_validate(from, last - from, NULL)) {
       g_string_append_len(file->text, from, last - from);
     } else {
-      add_old(file->text, from, (size_t)(last - from), encoding);
+      add_old(file->text, from, (size_t)(last - from), code);
     }
     line.len = file->text->len - line.allocated_len;
     good = line.len <= LONGEST_LINE;
@@ -355,9 +354,8 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
 }
 
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
-  const SbTextTableShape own = sb_text_table_shape(line, &table->dialect);
-  return (own.numeric | own.clocks) != 0 &&
-         same_shape(&own, &table->file->shape, table->dialect.matrix);
+  const SbTextTableShape s = sb_text_table_shape(line, &table->dialect);
+  return (s.numeric | s.clocks) != 0 && same_shape(&s, &table->file->shape, table->dialect.matrix);
 }
 
 // Finds the line where the longest block of rows begins, and the names and units above the block.
@@ -447,17 +445,16 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
   file->line = g_array_new(FALSE, FALSE, sizeof(GString));
   bytes = length > 0 ? bytes : "";
   wish = wish != NULL ? wish : &nothing;
+  const SbTextTableEncoding said = wish->encoding;
+  table->dialect.encoding =
+      said != SB_TEXT_TABLE_ANY_ENCODING ? said : find_encoding(bytes, length);
   const char *format = format_of(bytes, length);
-  if (format != NULL) {
-    sb_issues_add(issues, name, 0, NULL, NULL, "is %s: export it as text, such as CSV", format);
-    return NULL;
-  }
-  table->dialect.encoding = wish->encoding != SB_TEXT_TABLE_ANY_ENCODING
-                                ? wish->encoding
-                                : find_encoding(bytes, MIN(length, HEAD_BYTES), length);
-  const char *wrong = split_lines(file, bytes, length, table->dialect.encoding);
-  if (wrong != NULL) {
-    sb_issues_add(issues, name, 0, NULL, NULL, "%s", wrong);
+  const char *wrong =
+      format == NULL ? split_lines(file, bytes, length, table->dialect.encoding) : NULL;
+  if (format != NULL || wrong != NULL) {
+    sb_issues_add(issues, name, 0, NULL, NULL,
+                  wrong != NULL ? "%s" : "is %s: export it as text, such as CSV",
+                  wrong != NULL ? wrong : format);
     return NULL;
   }
   const Sample sample = take_sample(file->line);
@@ -466,14 +463,13 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
   return good ? g_steal_pointer(&table) : NULL;
 }
 
-SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
-                                GPtrArray *issues) {
+SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish, GPtrArray *list) {
   size_t length = 0;
-  g_autofree char *bytes = sb_reader_load(&length, path, path, BYTES_MAX, issues);
+  g_autofree char *bytes = sb_reader_load(&length, path, path, BYTES_MAX, list);
   if (bytes != NULL && length == 0) {
-    sb_issues_add(issues, path, 0, NULL, NULL, "is empty");
+    sb_issues_add(list, path, 0, NULL, NULL, "is empty");
   }
-  return length > 0 ? sb_text_table_parse(bytes, length, wish, path, issues) : NULL;
+  return length > 0 ? sb_text_table_parse(bytes, length, wish, path, list) : NULL;
 }
 
 void sb_text_table_free(SbTextTable *table) {

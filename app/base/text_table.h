@@ -1,7 +1,6 @@
 // Tables of numbers in text files, as test machines, loggers and instruments export them.
 // Separator, decimal mark, encoding, first row, names and units of the columns are recognised from
 // the file; the caller can specify them instead.
-//
 // Cells are separated by tab, semicolon, comma, | or blanks, and may be in double quotes. Numbers
 // have a decimal point or comma, may have the other one (or an apostrophe or blank) between
 // thousands, may have a typographic minus, and are rounded once: equal digits give equal doubles. A
@@ -71,8 +70,7 @@ typedef struct {
 
 // Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
 // Returns NULL with one issue if it cannot be read or is not a table.
-SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
-                                GPtrArray *issues);
+SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish, GPtrArray *list);
 
 // As sb_text_table_open(), from the `length` bytes of a file; `name` is its path in messages.
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,

@@ -1,6 +1,5 @@
 // Bodies of drawings: half-sections, volume and moments of inertia of the parts in a DXF, STEP or
 // STL file, and the lands, bores and grooves on them.
-//
 // A STEP file is read by the program sealbench-cad (gmsh with OpenCASCADE), which runs with limits
 // of time and memory, finds the axis, cuts the bodies by a half-plane through it and measures them.
 // An STL is a mesh: each of its connected shells is a body, which is measured and cut here. In a
@@ -8,7 +7,6 @@
 // half-profiles of straight pieces and arcs in the form of the key [part.NAME] profile; other
 // curves are approximated by arcs within SB_CAD_TOLERANCE. Of several outlines of a cut body, the
 // profile is that with the largest revolved volume; `solid` is always the complete body.
-//
 // Coordinates: x along the axis of the bodies, 0 where the file's origin projects on it, then
 // reversed (`flip`) and moved (`shift`); r is the distance from the axis. The largest component of
 // an axis that was found is positive. The valve requires x to point out of the canister.

@@ -83,15 +83,14 @@ static bool entity_take(SbDxfEntity *entity, const SbDxfReader *reader, GError *
     entity->high = fmax(entity->high, value);
   }
   for (int i = 0; i < SB_DXF_LISTS; i++) {
-    GArray *list = entity->list[i];
+    GArray *to = entity->list[i];
     // A bulge belongs to the point before it.
-    while (code == list_code[i] && i == SB_DXF_BULGE &&
-           list->len + 1 < entity->list[SB_DXF_X]->len) {
+    while (code == list_code[i] && i == SB_DXF_BULGE && to->len + 1 < entity->list[SB_DXF_X]->len) {
       const double straight = 0;
-      g_array_append_val(list, straight);
+      g_array_append_val(to, straight);
     }
-    if (code == list_code[i] && list->len < MOST) {
-      g_array_append_val(list, value);
+    if (code == list_code[i] && to->len < MOST) {
+      g_array_append_val(to, value);
     } else if (code == list_code[i]) {
       return sb_app_error_input(error, "line %d: more than %d points", reader->next.line, MOST);
     }

@@ -114,7 +114,7 @@ static void simplify(GArray *chain, double within) {
 // Fills the body's profile from a chain, which it simplifies; `why` where that is none.
 static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
   g_autoptr(GArray) drawn = g_array_copy(chain);
-  for (int pass = 0; pass < 1 + closed; pass++) { // again from another piece, whose end is a corner
+  for (int pass = 0; pass < 1 + closed; pass++) { // again from another p, whose end is a corner
     const SbPiece first = g_array_index(chain, SbPiece, 0);
     g_array_remove_index(chain, 0);
     g_array_insert_val(chain, pass == 0 ? 0 : chain->len, first);
@@ -130,9 +130,8 @@ static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
     return;
   }
   for (guint i = 0; i < chain->len; i++) {
-    const SbPiece *piece = &g_array_index(chain, SbPiece, i);
-    g_array_append_vals(body->profile,
-                        &(SbProfilePoint){piece->x0, fmax(piece->y0, 0), piece->bulge}, 1);
+    const SbPiece *p = &g_array_index(chain, SbPiece, i);
+    g_array_append_vals(body->profile, &(SbProfilePoint){p->x0, fmax(p->y0, 0), p->bulge}, 1);
   }
   if (!closed) {
     const SbPiece *last = &g_array_index(chain, SbPiece, chain->len - 1);

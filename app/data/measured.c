@@ -417,14 +417,13 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   return true;
 }
 
-static SbMeasured *read_table(SbTextTable *table, const SbData *data, double speed,
-                              GPtrArray *issues) {
+static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed, GPtrArray *list) {
   g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
   double scale[SB_CHANNELS] = {0};
   m->name = g_path_get_basename(data->path);
   m->dialect = table->dialect;
   m->header_lines = table->header_lines;
-  if (!settle_columns(m, table, data, speed, scale, issues)) {
+  if (!settle_columns(m, table, data, speed, scale, list)) {
     return NULL;
   }
   size_t column[SB_CHANNELS + 1], count = 0;
@@ -435,7 +434,7 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
     }
   }
   column[count] = table->columns;
-  if (!sb_text_table_read(&m->lines, read, table, column, count + 1, issues)) {
+  if (!sb_text_table_read(&m->lines, read, table, column, count + 1, list)) {
     return NULL;
   }
   for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
@@ -443,18 +442,18 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
   }
   m->count = m->lines.rows;
   bool good = m->lines.skipped <= m->count ||
-              sb_issues_add(issues, data->path, m->lines.left_line, NULL, NULL,
+              sb_issues_add(list, data->path, m->lines.left_line, NULL, NULL,
                             "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
                             m->lines.skipped, m->count, m->lines.left_text);
   m->dropped = m->lines.damaged;
   drop_blocks(m, read[count]);
   g_free(read[count]);
-  good = good && settle_rows(m, data, scale, issues);
+  good = good && settle_rows(m, data, scale, list);
   if (good && m->count < ROWS_MIN) {
-    good = sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows",
-                         "has too few rows for a loop");
+    good =
+        sb_issues_add(list, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
   }
-  good = good && (m->speed == 0 || displace(m, data, issues)) && sb_measured_find(m, data, issues);
+  good = good && (m->speed == 0 || displace(m, data, list)) && sb_measured_find(m, data, list);
   return good ? g_steal_pointer(&m) : NULL;
 }
 
@@ -466,7 +465,7 @@ SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *byte
                                  : bytes != NULL
                                      ? sb_text_table_parse(bytes, length, &wish, data->path, issues)
                                      : sb_text_table_open(data->path, &wish, issues);
-  return table != NULL ? read_table(table, data, speed, issues) : NULL;
+  return table != NULL ? read_all(table, data, speed, issues) : NULL;
 }
 
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {

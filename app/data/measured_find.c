@@ -1,5 +1,4 @@
 // What a measured loop shows by itself: direction, cycles, zero, compliance, noise, stages.
-//
 // Noise: second differences of neighbouring rows while the stem slides, their median magnitude over
 // 0.6745 sqrt(6), which is the deviation where noise is white and normal; steps do not enter a
 // median. Stages: B is the last row before the stem moves by more than 1 % of the stroke at the
@@ -82,7 +81,7 @@ static double opening(const SbMeasured *m, const GArray *turns) {
 
 static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   const char *said = data->text[SB_DATA_DIRECTION];
-  g_autoptr(GArray) turns = find_turns(m);
+  g_autoptr(GArray) turn = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
     const size_t turned = sb_data_word(data, SB_DATA_DIRECTION, sb_data_directions, issues) - 1;
@@ -92,15 +91,14 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
     double low, high;
     gsl_stats_minmax(&low, &high, m->force, 1, m->count);
     const double middle = median_force(m, 0, m->count, -INFINITY, INFINITY);
-    const double open = opening(m, turns);
+    const double open = opening(m, turn);
     const bool pressed = fabs(middle) > 0.05 * (high - low), loop = isfinite(open) && open != 0;
     m->direction = pressed && loop ? SB_HOW_FOUND : SB_HOW_ASSUMED;
     m->turned_force = pressed && middle < 0;
     if (loop) {
       m->turned_displacement = (open < 0) != m->turned_force;
-    } else if (turns->len > 1) {
-      m->turned_displacement =
-          m->displacement[g_array_index(turns, size_t, 1)] < m->displacement[0];
+    } else if (turn->len > 1) {
+      m->turned_displacement = m->displacement[g_array_index(turn, size_t, 1)] < m->displacement[0];
     }
   }
   for (size_t i = 0; i < m->count; i++) {
@@ -113,12 +111,11 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   m->cycle = g_array_new(FALSE, FALSE, sizeof(SbMeasuredCycle));
   g_autoptr(GArray) turns = find_turns(m);
   for (guint k = 0; k + 1 < turns->len && m->cycle->len < SB_MEASURED_CYCLES_MAX; k++) {
-    const size_t begin = g_array_index(turns, size_t, k);
+    const size_t from = g_array_index(turns, size_t, k);
     const size_t turn = g_array_index(turns, size_t, k + 1);
-    if (m->displacement[turn] > m->displacement[begin]) {
+    if (m->displacement[turn] > m->displacement[from]) {
       const size_t end = k + 2 < turns->len ? g_array_index(turns, size_t, k + 2) : turn;
-      g_array_append_vals(m->cycle, &(SbMeasuredCycle){begin, turn, end + (end + 1 == m->count)},
-                          1);
+      g_array_append_vals(m->cycle, &(SbMeasuredCycle){from, turn, end + (end + 1 == m->count)}, 1);
     }
   }
   if (m->cycle->len == 0) {

@@ -2,7 +2,6 @@
 // any table (app/base/text_table.h), named with their units: "time [s]" and the values. Every line
 // after the header must be a row, at most SB_MODEL_SERIES_MAX. Times must increase strictly; the
 // first one is subtracted from all: the series begins at 0. The engine interpolates linearly.
-//
 // All functions return false, *out then empty, with at least one issue (file, line, column, allowed
 // range): no such series, above SB_SERIES_BYTES_MAX, value out of range. A series owns nothing.
 #pragma once

@@ -1,5 +1,4 @@
 // Scans of surfaces from files: heights on a grid or along a line, in metres.
-//
 //   text   a matrix; columns x z or, on a grid, x y z, by their names or in this order. Headers of
 //          ESRI, SPIP and Gwyddion ("Width: 5 µm"), or names with units ("x [mm], z [µm]").
 //   .gwy   Gwyddion's container ("Format of Gwyddion Files"); masked points are missing points.
@@ -94,5 +93,4 @@ typedef struct {
 } SbScanScatter;
 
 // Returns the scatter of the figure that `value` returns for a part (NaN: the part has none).
-SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
-                              double (*value)(const SbHeightFigures *part));
+SbScanScatter sb_scan_scatter(const SbScanFigures *from, double (*value)(const SbHeightFigures *));

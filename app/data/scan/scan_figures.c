@@ -47,12 +47,11 @@ static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *rep
   return status;
 }
 
-SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
-                              double (*value)(const SbHeightFigures *part)) {
+SbScanScatter sb_scan_scatter(const SbScanFigures *from, double (*value)(const SbHeightFigures *)) {
   double each[SB_SCAN_PARTS_MAX];
   size_t count = 0;
-  for (int k = 0; k < figures->part_rows * figures->part_columns; k++) {
-    each[count] = value(&figures->part[k]);
+  for (int k = 0; k < from->part_rows * from->part_columns; k++) {
+    each[count] = value(&from->part[k]);
     count += isfinite(each[count]);
   }
   return count < 2 ? (SbScanScatter){NAN, NAN}

@@ -37,7 +37,6 @@ bool sb_scan_parse_sdf(SbScan *out, SbScanBytes file, const SbScanChoices *wish,
   }
   out->heights.dx = sb_bytes_double(h + 46);
   out->heights.dy = sb_bytes_double(h + 54);
-  const double least[] = {NAN, NAN, NAN, NAN, G_MININT8, G_MININT16, G_MININT32, NAN};
-  return sb_scan_take_grid(out, columns, rows, SB_SCAN_KINDS[type], file, scale, least[type],
-                           error);
+  const double none[] = {NAN, NAN, NAN, NAN, G_MININT8, G_MININT16, G_MININT32, NAN};
+  return sb_scan_take_grid(out, columns, rows, SB_SCAN_KINDS[type], file, scale, none[type], error);
 }
