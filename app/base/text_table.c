@@ -445,9 +445,8 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
   file->line = g_array_new(FALSE, FALSE, sizeof(GString));
   bytes = length > 0 ? bytes : "";
   wish = wish != NULL ? wish : &nothing;
-  const SbTextTableEncoding said = wish->encoding;
-  table->dialect.encoding =
-      said != SB_TEXT_TABLE_ANY_ENCODING ? said : find_encoding(bytes, length);
+  const SbTextTableEncoding key = wish->encoding;
+  table->dialect.encoding = key != SB_TEXT_TABLE_ANY_ENCODING ? key : find_encoding(bytes, length);
   const char *format = format_of(bytes, length);
   const char *wrong =
       format == NULL ? split_lines(file, bytes, length, table->dialect.encoding) : NULL;

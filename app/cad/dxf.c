@@ -9,8 +9,7 @@
 #include "app/cad/dxf_private.h"
 #include "app/cad/dxf_words.def"
 
-// Pieces, entities read, entities placed and layers with pieces of a file; nested blocks, of which
-// one may contain itself; different entities left out.
+// Largest numbers of pieces, entities read, entities placed, layers; nested blocks, kinds left out.
 enum { DXF_PIECES_MAX = 100000, ENTITIES_MAX = 1000000, PLACED_MAX = 100000, LAYERS_MAX = 200 };
 enum { DXF_DEPTH_MAX = 8, LEFT_OUT_MAX = 20 };
 

@@ -2,8 +2,7 @@
 // output, by gmsh and its OpenCASCADE kernel. A program of its own: a kernel that crashes, hangs or
 // takes memory without end on a hostile file ends here, within the limits set below. Lengths in m,
 // the axis along x; each body cut by the half-plane at ANGLE [rad] about it. DX and PX: direction
-// and a point [m] of the axis; "nan": found.
-//
+// and a point [m] of the axis; "nan": found. The text:
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
 //   solid V V cx cy cz Ixx Ixy ... Izz     SbSolid: volume, mass, centre, moments at 1 kg/m3

@@ -109,8 +109,8 @@ static bool read_field(Field *out, const Component *field, GError **error) {
   out->rows = sized ? sb_bytes_u32(rows.value) : 0;
   out->width = find(&width, field, 'd', "xreal") ? sb_bytes_double(width.value) : 0;
   out->height = find(&height, field, 'd', "yreal") ? sb_bytes_double(height.value) : 0;
-  if (!find(&data, field, 'D', "data") || data.count == 0 ||
-      out->columns * out->rows != data.count) {
+  const bool known = find(&data, field, 'D', "data") && data.count > 0;
+  if (!known || out->columns * out->rows != data.count) {
     return sb_app_error_input(error, "a data field's size is not that of its data");
   }
   out->data = data.value;

@@ -1,8 +1,7 @@
 // Surface data files (ISO 25178-71, before it BCR): a header, then NumProfiles rows of NumPoints
 // heights. The text form, aISO-1.0, has lines "Key = value" and ends its parts by "*"; the binary
-// form, bISO-1.0, has a header of 81 bytes and little-endian numbers. Scales are in metres; heights
-// are numbers times Zscale. Missing points: BAD, NaN, the smallest signed integer. Not read:
-// compressed data, the check sum.
+// form, bISO-1.0, has 81 bytes of header and little-endian numbers. Scales are in metres; heights
+// are numbers times Zscale, or void: BAD, NaN, the least integer. Ignores compression, check sums.
 #include "app/data/scan/scan_private.h"
 
 enum { HEADER = 81 };
