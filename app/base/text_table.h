@@ -11,7 +11,7 @@
 // not read. The lines above the table are its header: its last ones give names and units. A unit is
 // in brackets, follows "in", "/", "_" or a blank, or is in a line of units. An ambiguous file (all
 // commas before three digits: decimals or thousands?) is refused with both interpretations in the
-// message. The text is in memory until the table is freed.
+// message. The text, 1 GiB at most, is in memory until the table is freed.
 #pragma once
 
 #include "app/base/issue.h"

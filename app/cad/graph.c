@@ -288,8 +288,8 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
       const guint at = place[node[end ^ 1U]];
       end = next[end ^ 1U];
       if (at > 0) {
-        const guint *ends = &g_array_index(cycle, guint, at - 1);
-        add_outline(outlines, &graph, ends, cycle->len - at + 1, gap);
+        const guint *loop = &g_array_index(cycle, guint, at - 1);
+        add_outline(outlines, &graph, loop, cycle->len - at + 1, gap);
         for (guint k = at - 1; k < cycle->len; k++) {
           place[node[g_array_index(cycle, guint, k)]] = 0;
         }
