@@ -6,26 +6,19 @@
 #include "app/base/reader.h"
 #include "app/base/text_table_private.h"
 
-#include <math.h>
-#include <stdint.h>
-#include <string.h>
-#include <unistd.h>
-
-// Lines that are looked at, copied.
+// Lines that are looked at.
 typedef struct {
-  GPtrArray *line; // of GString
-  size_t head;     // of them from the start of the file, without a gap
-  bool quoted;     // one has a quote
+  GArray *line; // of GString
+  size_t head;  // of them from the start of the file, without a gap
+  bool quoted;  // one has a quote
 } Sample;
 
-enum { PIPE_BYTES = 1 << 30 }; // largest table that is read from a pipe, into memory
+// Largest table, longest line, and start that is looked at for the encoding [bytes].
+enum { BYTES_MAX = 1 << 30, LONGEST_LINE = 1 << 26, HEAD_BYTES = 1 << 16 };
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
-enum { HEAD_BYTES = 1 << 16 }; // looked at for the encoding
 
 const char *const sb_text_table_encodings[] = {"any",      "utf-8",     "latin-1", "utf-16le",
                                                "utf-16be", "shift-jis", "gbk",     NULL};
-
-// ---- Bytes ----
 
 // Whether text that is not UTF-8 is Shift-JIS, or GBK, rather than Windows-1252: pairs of bytes
 // only, of which some begin where Windows-1252 has rare signs, or all have two bytes beyond 0xa0.
@@ -44,8 +37,8 @@ static bool is_paired(const guint8 *bytes, size_t length, bool gbk) {
   return common >= 2;
 }
 
-// From the first `looked` of `length` bytes.
-static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, size_t length) {
+static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t length) {
+  const size_t looked = MIN(length, HEAD_BYTES);
   if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0)) {
     return bytes[0] == 0xff ? SB_TEXT_TABLE_UTF16LE : SB_TEXT_TABLE_UTF16BE;
   }
@@ -67,65 +60,114 @@ static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t looked, siz
                                            : SB_TEXT_TABLE_LATIN1;
 }
 
-// Finds the encoding, unless it is known, and the ends of lines. Returns NULL; of a file that is
-// not text (a workbook, HTML), the name of its format.
-static const char *find_lines(SbTextTableLines *lines, SbTextTableEncoding known) {
+// Returns text in UTF-16 as UTF-8, with ? for half of a pair. Freed by g_string_free().
+static GString *narrow(const guint8 *bytes, size_t length, bool big) {
+  GString *text = g_string_sized_new(length / 2);
+  for (size_t i = 0; i + 1 < length; i += 2) {
+    const gunichar unit = (gunichar)(bytes[i + !big] << 8 | bytes[i + big]);
+    if (unit == 0) {
+      g_string_append_c(text, '\0');
+    } else if (i > 0 || (unit != 0xfeff && unit != 0xfffe)) {
+      g_string_append_unichar(text, unit >= 0xd800 && unit < 0xe000 ? '?' : unit);
+    }
+  }
+  return text;
+}
+
+// Appends a line in an old encoding; without one of its codes, each byte is a character.
+static void add_old(GString *text, const char *line, size_t length, SbTextTableEncoding encoding) {
+  const char *from = encoding == SB_TEXT_TABLE_LATIN1 ? "CP1252"
+                     : encoding == SB_TEXT_TABLE_GBK  ? "GB18030"
+                                                      : "CP932";
+  gsize size;
+  g_autofree char *known = g_convert(line, (gssize)length, "UTF-8", from, NULL, &size, NULL);
+  g_string_append_len(text, known, known != NULL ? (gssize)size : 0);
+  for (size_t i = 0; known == NULL && i < length; i++) {
+    g_string_append_unichar(text, (guchar)line[i]);
+  }
+}
+
+// Splits bytes into lines. Returns NULL, or why they are not the text of a table; static.
+static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t length,
+                               SbTextTableEncoding code) {
+  const size_t looked = MIN(length, HEAD_BYTES);
+  const bool big = code == SB_TEXT_TABLE_UTF16BE, wide = big || code == SB_TEXT_TABLE_UTF16LE;
+  const bool newline = memchr(bytes, '\n', looked) != NULL || memchr(bytes, '\r', looked) == NULL;
+  GString *narrowed = wide ? narrow((const guint8 *)bytes, length, big) : NULL;
+  const char *from = wide ? narrowed->str : bytes, *end = from + (wide ? narrowed->len : length);
+  from += end - from >= 3 && memcmp(from, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+  file->text = g_string_sized_new((size_t)(end - from) + 1);
+  bool good = true;
+  for (const char *stop; from < end && good; from = stop + 1) {
+    stop = memchr(from, newline ? '\n' : '\r', (size_t)(end - from));
+    stop = stop != NULL ? stop : end;
+    const char *last = stop;
+    while (last > from && last[-1] == '\r') {
+      last--;
+    }
+    GString line = {.allocated_len = file->text->len};
+    // Programs mix encodings.
+    if (wide || code == SB_TEXT_TABLE_UTF8 || g_utf8_validate(from, last - from, NULL)) {
+      g_string_append_len(file->text, from, last - from);
+    } else {
+      add_old(file->text, from, (size_t)(last - from), code);
+    }
+    line.len = file->text->len - line.allocated_len;
+    good = line.len <= LONGEST_LINE;
+    g_string_append_c(file->text, '\0');
+    g_array_append_val(file->line, line);
+  }
+  for (guint i = 0; i < file->line->len; i++) {
+    GString *line = &g_array_index(file->line, GString, i);
+    line->str = file->text->str + line->allocated_len;
+  }
+  if (wide) {
+    g_string_free(narrowed, TRUE);
+  }
+  return good ? NULL : "has a line of more than 64 MiB";
+}
+
+// Returns the name of the format of bytes that are not text; NULL: they are.
+static const char *format_of(const char *bytes, size_t length) {
   static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
                                            {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},
                                            {"TDSm", "a TDMS file"},
                                            {"<", "HTML or XML"},
                                            {"{", "JSON"},
                                            {"[{", "JSON"},
-                                           {"%PDF", "a PDF"},
-                                           {NULL, NULL}};
-  g_autofree guint8 *head = g_malloc0(HEAD_BYTES + 1);
-  const size_t looked = fread(head, 1, MIN(lines->length, HEAD_BYTES), lines->stream);
-  lines->encoding =
-      known != SB_TEXT_TABLE_ANY_ENCODING ? known : find_encoding(head, looked, lines->length);
-  const bool old = memchr(head, '\n', looked) == NULL && memchr(head, '\r', looked) != NULL;
-  lines->line_end = old ? '\r' : '\n';
-  const char *const *format = formats[0];
-  while (*format != NULL && !g_str_has_prefix((const char *)head, *format)) {
-    format += 2;
+                                           {"%PDF", "a PDF"}};
+  size_t i = 0;
+  while (i < G_N_ELEMENTS(formats) && (length < strlen(formats[i][0]) ||
+                                       memcmp(bytes, formats[i][0], strlen(formats[i][0])) != 0)) {
+    i++;
   }
-  return format[1];
+  return i < G_N_ELEMENTS(formats) ? formats[i][1] : NULL;
 }
 
-static void string_free(gpointer data) {
-  g_string_free(data, TRUE);
-}
-
-static void take_lines(Sample *sample, SbTextTableLines *lines, size_t from, size_t lines_max) {
-  const GString *line;
-  sb_text_table_seek(lines, from);
-  if (from > 0) {
-    (void)sb_text_table_next(lines); // the rest of a line
-  }
-  const size_t start = lines->left;
-  for (size_t i = 0; i < lines_max && start - lines->left < SAMPLE_BYTES &&
-                     (line = sb_text_table_next(lines)) != NULL;
-       i++) {
-    g_ptr_array_add(sample->line, g_string_new_len(line->str, (gssize)MIN(line->len, LINE_BYTES)));
+static void take_lines(Sample *sample, const GArray *lines, size_t from, size_t count) {
+  size_t bytes = 0;
+  for (size_t i = from; i < MIN(from + count, lines->len) && bytes < SAMPLE_BYTES; i++) {
+    GString line = g_array_index(lines, GString, i);
+    bytes += line.len + 1;
+    line.len = MIN(line.len, LINE_BYTES);
+    g_array_append_val(sample->line, line);
     sample->head += from == 0;
-    sample->quoted |= strchr(line->str, '"') != NULL;
+    sample->quoted |= memchr(line.str, '"', line.len) != NULL;
   }
 }
 
-static Sample take_sample(SbTextTableLines *lines) {
-  Sample sample = {.line = g_ptr_array_new_with_free_func(string_free)};
+// Takes lines from the start and, behind them, from three places, the last one at the end.
+static Sample take_sample(const GArray *lines) {
+  Sample sample = {.line = g_array_new(FALSE, FALSE, sizeof(GString))};
   take_lines(&sample, lines, 0, SAMPLE_LINES);
   for (size_t part = 1; part <= 3; part++) {
-    // Places behind the first look; the last near the end.
-    const size_t from = part < 3 ? part * (lines->length / 3)
-                                 : lines->length - MIN(lines->length, SAMPLE_BYTES / 8);
-    if (from > SAMPLE_BYTES) {
-      take_lines(&sample, lines, from & ~(size_t)1, SAMPLE_TAIL);
+    const size_t from = part * (lines->len / 3), end = lines->len - MIN(lines->len, SAMPLE_TAIL);
+    if (MIN(from, end) > sample.head) {
+      take_lines(&sample, lines, MIN(from, end), SAMPLE_TAIL);
     }
   }
   return sample;
 }
-
-// ---- Dialects ----
 
 // How well a dialect fits: rows of the same number of cells and the same kinds in their columns.
 typedef struct {
@@ -164,9 +206,8 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
 
 // Whether two lines are rows of one table: numbers, times and texts are in the same columns. A cell
 // may be empty; in a matrix, a row may have another length.
-static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b,
-                       const SbTextTableDialect *dialect) {
-  if (dialect->matrix) {
+static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b, bool matrix) {
+  if (matrix) {
     return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 && a->decimals == b->decimals;
   }
   return a->cells <= b->span && b->cells <= a->span && (a->texts & (b->numeric | b->clocks)) == 0 &&
@@ -184,10 +225,11 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
   SbTextTableShape seen[SHAPES];
   size_t count = 0, names = 0, rows[SHAPES] = {0};
   for (guint i = 0; i < sample->line->len; i++) {
-    const SbTextTableShape shape = sb_text_table_shape(sample->line->pdata[i], dialect);
+    const SbTextTableShape shape =
+        sb_text_table_shape(&g_array_index(sample->line, GString, i), dialect);
     names = (size_t)__builtin_popcountll(shape.texts) == shape.cells ? shape.cells : names;
     size_t at = 0;
-    while (at < count && !same_shape(&seen[at], &shape, dialect)) {
+    while (at < count && !same_shape(&seen[at], &shape, dialect->matrix)) {
       at++;
     }
     if (!is_row(&shape, dialect) || at == SHAPES) {
@@ -242,7 +284,7 @@ static bool accept(const SbTextTable *table, const Sample *sample, const Fit *be
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
   // The first cell that has another value in the other dialect.
   for (guint i = 0; grouped && i < sample->line->len; i++) {
-    const GString *line = sample->line->pdata[i];
+    const GString *line = &g_array_index(sample->line, GString, i);
     const size_t cells = sb_text_table_split(cell, line->str, line->len, best->dialect.separator);
     for (size_t k = 0; k < cells; k++) {
       double a, b;
@@ -311,12 +353,9 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
   return rival.score == 0 || accept(table, sample, best, &rival, issues);
 }
 
-// ---- Blocks ----
-
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
-  const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
-  return (shape.numeric | shape.clocks) != 0 &&
-         same_shape(&shape, &table->file->shape, &table->dialect);
+  const SbTextTableShape s = sb_text_table_shape(line, &table->dialect);
+  return (s.numeric | s.clocks) != 0 && same_shape(&s, &table->file->shape, table->dialect.matrix);
 }
 
 // Finds the line where the longest block of rows begins, and the names and units above the block.
@@ -327,7 +366,7 @@ static void find_block(SbTextTable *table, const Sample *sample) {
   SbTextTableBlock block = {0};
   table->header_lines = sample->head;
   for (size_t i = 0; i < sample->head; i++) {
-    const GString *line = sample->line->pdata[i];
+    const GString *line = &g_array_index(sample->line, GString, i);
     const bool row = sb_text_table_is_row(table, line);
     sb_text_table_block_next(&block, row, line, table);
     if (!row) {
@@ -359,7 +398,7 @@ static bool accept_commas(const SbTextTable *table, const Sample *sample, const 
     return true;
   }
   g_auto(GStrv) cells =
-      sb_text_table_header_cells(table, sample->line->pdata[table->header_lines - 1]);
+      sb_text_table_header_cells(table, sb_text_table_line(table, table->header_lines - 1));
   const size_t names = g_strv_length(cells);
   return names < 2 || fit->shape.cells != 2 * names ||
          sb_issues_add_choice(
@@ -369,14 +408,9 @@ static bool accept_commas(const SbTextTable *table, const Sample *sample, const 
              fit->shape.cells, names, names);
 }
 
-// ---- The file ----
-
 static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTableDialect *wish,
                       GPtrArray *issues) {
   Fit fit;
-  if (table->file->lines.wrong != NULL) {
-    return sb_issues_add(issues, table->file->shown, 0, NULL, NULL, "%s", table->file->lines.wrong);
-  }
   if (!find_dialect(&fit, table, sample, wish, issues)) {
     return false;
   }
@@ -393,7 +427,7 @@ static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTabl
   if (!accept_commas(table, sample, &fit, wish, issues)) {
     return false;
   }
-  sb_text_table_take_header(table, (GString *const *)sample->line->pdata, table->header_lines);
+  sb_text_table_take_header(table);
   // Marks between thousands are taken where a decimal mark distinguishes them.
   const bool grouped = (fit.shape.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
   if (!grouped && fit.shape.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
@@ -402,64 +436,49 @@ static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTabl
   return true;
 }
 
-// Recognises the table in a stream; NULL with an issue.
-static SbTextTable *table_of(FILE *stream, size_t length, char *owned, const char *shown,
-                             const SbTextTableDialect *wish, GPtrArray *issues) {
+SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
+                                 const char *name, GPtrArray *issues) {
   static const SbTextTableDialect nothing = {0};
   g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
-  table->file = g_new0(SbTextTableFile, 1);
-  *table->file =
-      (SbTextTableFile){.shown = g_strdup(shown),
-                        .lines = {.stream = stream, .length = length, .line = g_string_new(NULL)},
-                        .owned = owned};
+  SbTextTableFile *file = table->file = g_new0(SbTextTableFile, 1);
+  file->shown = g_strdup(name);
+  file->line = g_array_new(FALSE, FALSE, sizeof(GString));
+  bytes = length > 0 ? bytes : "";
   wish = wish != NULL ? wish : &nothing;
-  const char *format = find_lines(&table->file->lines, wish->encoding);
-  if (format != NULL) {
-    sb_issues_add(issues, shown, 0, NULL, NULL, "is %s: export it as text, such as CSV", format);
+  const SbTextTableEncoding key = wish->encoding;
+  table->dialect.encoding = key != SB_TEXT_TABLE_ANY_ENCODING ? key : find_encoding(bytes, length);
+  const char *format = format_of(bytes, length);
+  const char *wrong =
+      format == NULL ? split_lines(file, bytes, length, table->dialect.encoding) : NULL;
+  if (format != NULL || wrong != NULL) {
+    sb_issues_add(issues, name, 0, NULL, NULL,
+                  wrong != NULL ? "%s" : "is %s: export it as text, such as CSV",
+                  wrong != NULL ? wrong : format);
     return NULL;
   }
-  table->dialect.encoding = table->file->lines.encoding;
-  const Sample sample = take_sample(&table->file->lines);
+  const Sample sample = take_sample(file->line);
   const bool good = recognise(table, &sample, wish, issues);
-  g_ptr_array_unref(sample.line);
+  g_array_unref(sample.line);
   return good ? g_steal_pointer(&table) : NULL;
 }
 
-SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
-                                 const char *name, GPtrArray *issues) {
-  FILE *stream = fmemopen((void *)(length > 0 ? bytes : ""), MAX(length, 1), "r");
-  return table_of(stream, length, NULL, name, wish, issues);
-}
-
-SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
-                                GPtrArray *issues) {
-  struct stat info;
-  const int file = sb_reader_open(&info, path, path, issues);
+SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish, GPtrArray *list) {
   size_t length = 0;
-  char *owned = NULL;
-  FILE *stream = NULL;
-  if (file >= 0 && S_ISFIFO(info.st_mode)) {
-    owned = sb_reader_load_stream(&length, file, path, PIPE_BYTES, issues);
-    stream = owned != NULL ? fmemopen(owned, MAX(length, 1), "r") : NULL;
-  } else if (file >= 0 && info.st_size == 0) {
-    sb_issues_add(issues, path, 0, NULL, NULL, "is empty");
-  } else if (file >= 0) {
-    length = (size_t)info.st_size;
-    stream = fdopen(file, "r");
+  g_autofree char *bytes = sb_reader_load(&length, path, path, BYTES_MAX, list);
+  if (bytes != NULL && length == 0) {
+    sb_issues_add(list, path, 0, NULL, NULL, "is empty");
   }
-  if (file >= 0 && (stream == NULL || owned != NULL)) {
-    close(file);
-  }
-  return stream != NULL ? table_of(stream, length, owned, path, wish, issues) : NULL;
+  return length > 0 ? sb_text_table_parse(bytes, length, wish, path, list) : NULL;
 }
 
 void sb_text_table_free(SbTextTable *table) {
   if (table == NULL) {
     return;
   }
-  fclose(table->file->lines.stream);
-  g_string_free(table->file->lines.line, TRUE);
-  g_free(table->file->owned);
+  g_array_unref(table->file->line);
+  if (table->file->text != NULL) {
+    g_string_free(table->file->text, TRUE);
+  }
   g_free(table->file->names);
   g_free(table->file->shown);
   g_free(table->file);

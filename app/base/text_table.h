@@ -1,22 +1,17 @@
 // Tables of numbers in text files, as test machines, loggers and instruments export them.
 // Separator, decimal mark, encoding, first row, names and units of the columns are recognised from
 // the file; the caller can specify them instead.
-//
 // Cells are separated by tab, semicolon, comma, | or blanks, and may be in double quotes. Numbers
 // have a decimal point or comma, may have the other one (or an apostrophe or blank) between
-// thousands, may have a typographic minus, and are rounded once: the same digits give the same
-// double in every dialect. A time can be a time of day, 10:15:00.25, with or without a date. Lines
-// that begin with #, % or ! are comments.
-//
-// The table is the longest block of rows with the same cells. A line of names above rows begins a
-// block, directly after a row if it names each column, as does a line of units; blocks under the
-// same names and units are one. Other rows, such as those of a results table, are not read. The
-// lines above the table are its header: its last ones give names and units. A unit is in brackets,
-// follows "in", "/", "_" or a blank, or is in a line of units.
-//
-// An ambiguous file (all commas before three digits: decimals or thousands?) is refused with both
-// interpretations in the message. The file stays open and is read piece by piece, so that memory is
-// used only for the requested columns; a file that is truncated meanwhile is refused.
+// thousands, may have a typographic minus, and are rounded once: equal digits give equal doubles. A
+// time can be a time of day, 10:15:00.25, with or without a date. Lines that begin with #, % or !
+// are comments. The table is the longest block of rows with the same cells. A line of names above
+// rows begins a block, directly after a row if it names each column, as does a line of units;
+// blocks under the same names and units are one. Other rows, such as those of a results table, are
+// not read. The lines above the table are its header: its last ones give names and units. A unit is
+// in brackets, follows "in", "/", "_" or a blank, or is in a line of units. An ambiguous file (all
+// commas before three digits: decimals or thousands?) is refused with both interpretations in the
+// message. The text, 1 GiB at most, is in memory until the table is freed.
 #pragma once
 
 #include "app/base/issue.h"
@@ -74,17 +69,14 @@ typedef struct {
 } SbTextTable;
 
 // Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
-// Returns NULL with one issue if it cannot be read or is not a table. Freed by
-// sb_text_table_free().
-SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish,
-                                GPtrArray *issues);
+// Returns NULL with one issue if it cannot be read or is not a table.
+SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish, GPtrArray *list);
 
-// As sb_text_table_open(), from the `length` bytes of a file, which are borrowed by the table;
-// `name` is used as the path in messages.
+// As sb_text_table_open(), from the `length` bytes of a file; `name` is its path in messages.
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues);
 
-// Frees a table and closes its file.
+// Frees a table.
 void sb_text_table_free(SbTextTable *table);
 G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbTextTable, sb_text_table_free)
 
@@ -101,10 +93,9 @@ typedef struct {
 } SbTextTableRows;
 
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
-// numbers of column[k] in the file's units, freed by g_free(); times of day in seconds from
-// midnight of the first day; NaN for an empty cell; for the index table->columns, the row's block,
-// from 0, cut at blank lines and names. Returns false with one issue: memory, too many rows,
-// ambiguous dates.
+// numbers of column[k] in the file's units (g_free()), times of day in seconds from midnight of the
+// first day, NaN for an empty cell; for the index table->columns, the row's block, from 0, cut at
+// blank lines and names. Returns false with one issue: memory, too many rows, ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
@@ -127,6 +118,5 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
 // ',' or not just 3 digits follow it. Returns the number of bytes read; 0, *out unchanged: none.
 size_t sb_text_table_number_at(double *out, const char *text, char decimal);
 
-// Returns the usual spelling of a unit, as app/base/unit.h reads it: "Sek." is "s". NULL: not
-// known. Static.
+// Returns the usual spelling of a unit, as app/base/unit.h reads it: "s" for "Sek."; NULL: unknown.
 const char *sb_text_table_unit(const char *text);

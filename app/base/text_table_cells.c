@@ -2,11 +2,7 @@
 #include "app/base/number.h"
 #include "app/base/text_table_private.h"
 
-#include <math.h>
-#include <stdio.h>
-#include <string.h>
-
-// ---- Cells ----
+#include <stdlib.h>
 
 static bool is_blank(char c) {
   return c == ' ' || c == '\t';
@@ -91,8 +87,6 @@ size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t lengt
   return count;
 }
 
-// ---- Numbers ----
-
 // Returns the length of the first of the texts with which [c, end) begins; 0: none.
 static size_t skip_one(const char *c, const char *end, const char *const *texts) {
   for (; *texts != NULL; texts++) {
@@ -102,15 +96,6 @@ static size_t skip_one(const char *c, const char *end, const char *const *texts)
     }
   }
   return 0;
-}
-
-// Skips a sign: +, -, or another minus sign or dash.
-static const char *skip_sign(bool *negative, const char *c, const char *end) {
-  static const char *const minus[] = {"-", "\xe2\x88\x92", "\xe2\x80\x93", "\xef\xbc\x8d", NULL};
-  const bool digit = c < end && g_ascii_isdigit(*c); // the usual case, quickly
-  const size_t length = digit ? 0 : skip_one(c, end, minus);
-  *negative = length > 0;
-  return c + (length > 0 ? length : (size_t)(c < end && *c == '+'));
 }
 
 // Returns the length of a mark between thousands at `c`, which three digits and no fourth follow:
@@ -140,33 +125,32 @@ bool sb_text_table_void(const SbTextTableCell *cell) {
   return *word != NULL;
 }
 
-// Writes the number with a decimal point and without other marks to `plain`, which
-// sb_number_parse() reads.
+// Rewrites the number with no mark but a decimal point for sb_number_parse(), which checks it.
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw) {
+  static const char *const minus[] = {"-", "\xe2\x88\x92", "\xe2\x80\x93", "\xef\xbc\x8d", NULL};
   const char *c = cell->text, *const end = c + cell->length;
   if (dialect->matrix && sb_text_table_void(cell)) {
     *out = NAN;
     return true;
   }
-  char plain[SB_NUMBER_LENGTH_MAX + 1];
-  size_t count = 1, mark;
+  char plain[SB_NUMBER_LENGTH_MAX + 1], first = '\0'; // first: the first digit
+  size_t count = 0, length;
   unsigned seen = 0;
   int run = 0; // digits since the last mark, before the decimal mark
-  bool negative, whole = true, power = false;
-  const char *const first = c = skip_sign(&negative, c, end);
-  plain[0] = negative ? '-' : '+';
+  bool whole = true;
   while (c < end && count + 1 < sizeof plain) {
     const bool grouped = (seen & SB_TEXT_TABLE_SAW_GROUPS) != 0;
     if (g_ascii_isdigit(*c)) {
+      first = first == '\0' ? *c : first;
       run += whole;
       plain[count++] = *c++;
-    } else if (whole && run > 0 && (grouped ? run == 3 : run <= 3 && *first != '0') &&
-               (mark = group_mark(c, end, dialect->thousands)) > 0) {
+    } else if (whole && run > 0 && (grouped ? run == 3 : run <= 3 && first != '0') &&
+               (length = group_mark(c, end, dialect->thousands)) > 0) {
       seen |= SB_TEXT_TABLE_SAW_GROUPS | (*c == ' ' ? SB_TEXT_TABLE_SAW_BLANK : 0) |
               (*c == dialect->thousands ? SB_TEXT_TABLE_SAW_MARK : 0);
       run = 0;
-      c += mark;
+      c += length;
     } else if (whole && *c == dialect->decimal) {
       c++;
       if (dialect->decimal == ',' && (c == end || !g_ascii_isdigit(*c))) {
@@ -175,13 +159,12 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
       seen |= SB_TEXT_TABLE_SAW_DECIMAL;
       whole = false;
       plain[count++] = '.';
-    } else if (!power && (*c == 'e' || *c == 'E')) {
-      c = skip_sign(&negative, c + 1, end);
-      whole = false;
-      power = true;
-      plain[count++] = 'e';
-      plain[count] = negative ? '-' : '+';
-      count += count + 1 < sizeof plain;
+    } else if (*c == 'e' || *c == 'E' || *c == '+') {
+      whole = whole && *c == '+';
+      plain[count++] = *c++;
+    } else if ((length = skip_one(c, end, minus)) > 0) {
+      plain[count++] = '-';
+      c += length;
     } else {
       return false;
     }
@@ -191,57 +174,41 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
     return false;
   }
   if (saw != NULL) {
-    const bool padded = *first == '0' && (run > 1 || (whole && plain[0] == '-'));
+    const bool padded = first == '0' && (run > 1 || (whole && plain[0] == '-'));
     *saw |= (padded ? SB_TEXT_TABLE_SAW_PADDED : 0) | seen |
             (run > 3 && (seen & SB_TEXT_TABLE_SAW_GROUPS) == 0 ? SB_TEXT_TABLE_SAW_LONG : 0);
   }
   return true;
 }
 
-// ---- Clocks ----
-
 bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
-  char text[48], mark[3] = "", half = '\0';
-  SbTextTableClock clock = {0};
-  int time[3], *date = clock.date, used = 0;
-  if (memchr(cell->text, ':', cell->length) == NULL || cell->length >= sizeof text ||
-      strspn(cell->text, "0123456789") == 0) {
+  static const char form[] = "^(?:(\\d{1,4})([./-])(\\d\\d?)\\2(\\d{1,4})[ T])?(\\d\\d?):"
+                             "(\\d\\d?):(\\d\\d?)(?:[.,](\\d*))? *(?:([AP])M)?$";
+  enum { YEAR = 1, MARK, MONTH, DAY, HOUR, MINUTE, SECOND, FRACTION, HALF, PARTS };
+  static GRegex *regex; // compiled once, never freed
+  g_autoptr(GMatchInfo) match = NULL;
+  if (g_once_init_enter(&regex)) {
+    g_once_init_leave(&regex, g_regex_new(form, G_REGEX_CASELESS | G_REGEX_RAW, 0, NULL));
+  }
+  if (memchr(cell->text, ':', cell->length) == NULL ||
+      !g_regex_match_full(regex, cell->text, (gssize)cell->length, 0, 0, &match, NULL)) {
     return false;
   }
-  memcpy(text, cell->text, cell->length);
-  text[cell->length] = '\0';
-  const char *c = text;
-  if (sscanf(c, "%4d%c%2d%c%4d%c%n", &date[0], &mark[0], &date[1], &mark[1], &date[2], &mark[2],
-             &used) == 6 &&
-      mark[0] != ':') {
-    if (strchr("./-", mark[0]) == NULL || mark[1] != mark[0] ||
-        (mark[2] != ' ' && mark[2] != 'T')) {
-      return false;
-    }
-    clock.mark = mark[0];
-    c += used;
-  } else {
-    memset(clock.date, 0, sizeof clock.date);
+  const char *part[PARTS];
+  int n[PARTS] = {0}, digits = 0;
+  for (int i = 1, begin, end; i < PARTS; i++) {
+    const bool has = g_match_info_fetch_pos(match, i, &begin, &end) && begin >= 0;
+    part[i] = has ? cell->text + begin : "";
+    n[i] = has && i != FRACTION ? atoi(part[i]) : 0;
+    digits = has && i == FRACTION ? end - begin : digits;
   }
-  used = 0;
-  if (sscanf(c, "%2d:%2d:%2d%n", &time[0], &time[1], &time[2], &used) != 3 || used == 0 ||
-      time[0] > 23 || time[1] > 59 || time[2] > 60 || strpbrk(c, "+-") != NULL) {
-    return false;
-  }
-  double fraction = 0;
-  c += used;
-  if (*c == '.' || *c == ',') {
-    text[c - text] = '.';
-    c += MAX(sb_number_read(&fraction, c), 1);
-  }
-  used = 0;
-  if (sscanf(c, " %c%*1[mM]%n", &half, &used) == 1 && used == 3) {
-    time[0] = time[0] % 12 + (g_ascii_toupper(half) == 'P' ? 12 : 0);
-    c += used;
-  }
-  clock.seconds = time[0] * 3600 + time[1] * 60 + time[2] + fraction;
-  *out = *c == '\0' ? clock : *out;
-  return *c == '\0';
+  const double fraction = digits > 0 ? strtod(part[FRACTION], NULL) / pow(10, digits) : 0;
+  const bool late = g_ascii_toupper(*part[HALF]) == 'P';
+  const int hour = *part[HALF] != '\0' ? n[HOUR] % 12 + 12 * late : n[HOUR];
+  *out = (SbTextTableClock){.seconds = hour * 3600 + n[MINUTE] * 60 + n[SECOND] + fraction,
+                            .date = {n[YEAR], n[MONTH], n[DAY]},
+                            .mark = *part[MARK]};
+  return n[HOUR] <= 23 && n[MINUTE] <= 59 && n[SECOND] <= 60;
 }
 
 bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates) {

@@ -2,11 +2,7 @@
 #include "app/base/number.h"
 #include "app/base/text_table_private.h"
 
-#include <string.h>
-
 enum { HEADER_LINES = 1000, HEADER_BYTES = 4096 };
-
-// ---- Units ----
 
 static const struct {
   const char *unit, *all; // all spellings between bars
@@ -59,8 +55,6 @@ static bool is_unit(const char *text) {
   return all;
 }
 
-// ---- Names ----
-
 // "Force [N]", "Kraft / N", "load_N", "x in µm" -> name and unit. Both owned by the caller.
 static void split_name(char **name, char **unit, const char *text) {
   static const char *const links[] = {" in ", " en ", "/", "_", ",", ":", " "};
@@ -108,9 +102,15 @@ static void add_cell(GPtrArray *out, const char *text, size_t length) {
 
 // Cells of a header line with a separator; 0 for two blanks or more.
 static char **cells_by(const char *line, size_t length, char separator) {
-  GPtrArray *out = g_ptr_array_new();
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
-  const size_t cells = separator != '\0' ? sb_text_table_split(cell, line, length, separator) : 0;
+  if (separator == '\0') {
+    g_autofree char *copy = g_strstrip(g_strndup(line, length));
+    g_autoptr(GRegex) blanks = g_regex_new(" {2,}", G_REGEX_RAW, 0, NULL);
+    g_autofree char *text = g_regex_replace_literal(blanks, copy, -1, 0, "\t", 0, NULL);
+    return cells_by(text, strlen(text), '\t');
+  }
+  GPtrArray *out = g_ptr_array_new();
+  const size_t cells = sb_text_table_split(cell, line, length, separator);
   for (size_t i = 0; i < cells; i++) {
     add_cell(out, cell[i].text, cell[i].length);
     char *text = out->pdata[out->len - 1];
@@ -120,14 +120,6 @@ static char **cells_by(const char *line, size_t length, char separator) {
       g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
       g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
       g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
-    }
-  }
-  g_autofree char *copy = g_strndup(line, separator == '\0' ? length : 0);
-  g_auto(GStrv) parts = g_strsplit(copy, "  ", -1);
-  for (char **part = parts; *part != NULL; part++) {
-    g_strstrip(*part);
-    if (**part != '\0') {
-      add_cell(out, *part, strlen(*part));
     }
   }
   g_ptr_array_add(out, NULL);
@@ -172,8 +164,7 @@ static bool are_units(char *const *cells) {
   return known > 0 && 2 * known > texts;
 }
 
-// Whether a header line can name the columns: it has a text for nearly all that have numbers, and
-// no value.
+// Whether a header line can name the columns: a text for nearly all that have numbers, no value.
 static bool names_columns(const SbTextTable *table, char *const *cells) {
   size_t texts = 0, numbers = 0, count = 0;
   double value;
@@ -194,15 +185,15 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
          (count <= table->columns || texts == table->columns);
 }
 
-// Whether a quote that begins a cell is open at the end of line[count - 1], from at most 3 lines
-// before.
-static bool is_open(GString *const *line, size_t count, char separator) {
+// Whether a quote that begins a cell, at most 3 lines before, is open behind line count - 1.
+static bool is_open(const SbTextTable *table, size_t count) {
   const char *quote = NULL;
-  const size_t least = count - MIN(count, 3);
-  while (count > least && (quote = strrchr(line[count - 1]->str, '"')) == NULL) {
+  const size_t low = count - MIN(count, 3);
+  while (count > low && (quote = strrchr(sb_text_table_line(table, count - 1)->str, '"')) == NULL) {
     count--;
   }
-  return quote != NULL && (quote == line[count - 1]->str || quote[-1] == separator);
+  return quote != NULL && (quote == sb_text_table_line(table, count - 1)->str ||
+                           quote[-1] == table->dialect.separator);
 }
 
 // Takes units, or names with units, from a header line.
@@ -225,8 +216,7 @@ static void take_header_line(SbTextTable *table, char *const *cells, bool units_
 }
 
 // Whether a line directly after a row names each column, with different texts ("OVER" in each names
-// none); of a comment or matrix, or if blanks separate the cells, with a unit: a remark has as many
-// words.
+// none); of a comment or matrix, or with blanks between cells, with a unit, unlike a remark.
 static bool names_each(const SbTextTable *table, const GString *line, char *const *cells) {
   const SbTextTableShape *rows = &table->file->shape;
   int named = 0;
@@ -265,15 +255,15 @@ void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *
   block->headed = true;
 }
 
-void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count) {
+void sb_text_table_take_header(SbTextTable *table) {
   enum { LOOKED = 12 };
-  bool named = false, united = false, stopped = false;
-  for (size_t i = count, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
+  bool found[2] = {false}, stopped = false; // names, units
+  for (size_t i = table->header_lines, back = 0; i-- > 0 && back < LOOKED && !stopped; back++) {
     // A cell in quotes may have several lines.
-    g_autoptr(GString) all = g_string_new_len(line[i]->str, (gssize)line[i]->len);
-    for (; is_open(line, i, table->dialect.separator); i--) {
+    g_autoptr(GString) all = g_string_new(sb_text_table_line(table, i)->str);
+    for (; is_open(table, i); i--) {
       g_string_prepend_c(all, ' ');
-      g_string_prepend_len(all, line[i - 1]->str, (gssize)line[i - 1]->len);
+      g_string_prepend(all, sb_text_table_line(table, i - 1)->str);
     }
     const SbTextTableShape shape = sb_text_table_shape(all, &table->dialect);
     g_auto(GStrv) cells = sb_text_table_header_cells(table, all);
@@ -281,20 +271,17 @@ void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t 
     // The rows of a block above, or the first line above the names that is not units, end it.
     stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;
     if (stopped || (!titled && !units)) {
-      stopped |= named && cells[0] != NULL;
-    } else if (units && !united) {
-      take_header_line(table, cells, true);
-      united = true;
-    } else if (!units && !named) {
-      take_header_line(table, cells, false);
-      named = true;
+      stopped |= found[0] && cells[0] != NULL;
+    } else if (!found[units]) {
+      take_header_line(table, cells, units);
+      found[units] = true;
     } else {
       stopped = true;
     }
   }
   GPtrArray *texts = g_ptr_array_new();
-  for (size_t i = 0; i < MIN(count, HEADER_LINES); i++) {
-    g_autofree char *copy = g_strndup(line[i]->str, MIN(line[i]->len, HEADER_BYTES));
+  for (size_t i = 0; i < MIN(table->header_lines, HEADER_LINES); i++) {
+    g_autofree char *copy = g_strndup(sb_text_table_line(table, i)->str, HEADER_BYTES);
     char *text = copy + strspn(copy, "#;%!/ \t");
     g_strdelimit(text, "\t", ';');
     g_ptr_array_add(texts, sb_printable(text, strlen(text)));

@@ -3,30 +3,8 @@
 
 #include "app/base/text_table.h"
 
-#include <stdio.h>
-
-// The bytes of a table, read line by line. (A memory map would crash if another program truncates
-// the file.)
-typedef struct {
-  FILE *stream;  // of the file, or of bytes in memory
-  size_t length; // of the file when it was opened
-  SbTextTableEncoding encoding;
-  char line_end;     // '\n', or '\r' for files without newlines
-  size_t left;       // bytes that are not read yet
-  int number;        // of the line last read; the first one after sb_text_table_seek() is 1
-  GString *line;     // that line
-  const char *wrong; // why reading ended before the end of the file; NULL: it did not; static
-} SbTextTableLines;
-
-// Longest line in UTF-8 [bytes].
-enum { SB_TEXT_TABLE_LINE_MAX = 1 << 26 };
-
-// Continues to read at byte `from`.
-void sb_text_table_seek(SbTextTableLines *lines, size_t from);
-
-// Returns the next line in UTF-8 without its end, borrowed until the next call. NULL at the end, or
-// with `wrong` set if the file cannot be read.
-const GString *sb_text_table_next(SbTextTableLines *lines);
+#include <math.h>
+#include <string.h>
 
 // A cell; borrowed from its line, not terminated by 0.
 typedef struct {
@@ -38,8 +16,7 @@ typedef struct {
 // separator (NULL: behind the last cell). Returns false if no cell is left.
 bool sb_text_table_cell(SbTextTableCell *cell, const char **at, const char *end, char separator);
 
-// Splits a line into cell[SB_TEXT_TABLE_COLUMNS_MAX] and returns their number; further cells are
-// ignored, as are empty ones at the end.
+// Splits a line into cell[SB_TEXT_TABLE_COLUMNS_MAX]; returns their number, less empty last ones.
 size_t sb_text_table_split(SbTextTableCell *cell, const char *line, size_t length, char separator);
 
 // Returns whether a cell is empty or has a word that instruments write where they have no value.
@@ -55,8 +32,7 @@ enum {
   SB_TEXT_TABLE_SAW_PADDED = 16 // a zero before other digits, or -0: no program writes integers so
 };
 
-// Reads a cell as a number in this dialect. Returns false, with *out not changed, if it is none.
-// Sets bits of *saw (may be NULL).
+// Reads a number and sets bits of *saw (may be NULL). Returns false, *out unchanged, for a text.
 bool sb_text_table_number(double *out, const SbTextTableCell *cell,
                           const SbTextTableDialect *dialect, unsigned *saw);
 
@@ -93,14 +69,19 @@ typedef struct {
   bool headed;    // names or units were found behind the last row
 } SbTextTableBlock;
 
-// Where a table is read from.
+// The text of a table.
 typedef struct SbTextTableFile {
-  char *shown; // the file, for messages
-  SbTextTableLines lines;
-  char *owned;            // memory of the bytes of a pipe; else NULL
+  char *shown;            // the file, for messages
+  GString *text;          // its lines in UTF-8, each with a terminating 0
+  GArray *line;           // of GString: views of these lines without their ends, read-only
   SbTextTableShape shape; // of its rows
   char *names;            // names and units above its rows; NULL: none
 } SbTextTableFile;
+
+// Returns line `index`, from 0.
+static inline const GString *sb_text_table_line(const SbTextTable *table, size_t index) {
+  return &g_array_index(table->file->line, GString, index);
+}
 
 // Returns whether a line has values where the rows of the table have them.
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
@@ -109,9 +90,8 @@ bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
 void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
                               const SbTextTable *table);
 
-// Fills the table's header, and names and units of its columns, from the lines line[count] (of
-// GString) above its rows.
-void sb_text_table_take_header(SbTextTable *table, GString *const *line, size_t count);
+// Fills the table's header, and names and units of its columns, from the lines above its rows.
+void sb_text_table_take_header(SbTextTable *table);
 
 // Returns the cells of a header line as UTF-8, ended by NULL.
 char **sb_text_table_header_cells(const SbTextTable *table, const GString *line);

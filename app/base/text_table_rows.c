@@ -1,9 +1,6 @@
 // Reads the rows of a table; see text_table.h.
 #include "app/base/text_table_private.h"
 
-#include <math.h>
-#include <string.h>
-
 // Converts times of day to seconds since midnight of the first row. add_days() returns false if it
 // is ambiguous whether a date advances by a day or by a month.
 typedef struct {
@@ -14,12 +11,11 @@ typedef struct {
 
 static bool add_days(double *out, Days *days, const SbTextTableClock *clock, char dates) {
   if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
-    long before, now;
-    if (!sb_text_table_days(&before, &days->last, dates) ||
-        !sb_text_table_days(&now, clock, dates)) {
+    long old, now;
+    if (!sb_text_table_days(&old, &days->last, dates) || !sb_text_table_days(&now, clock, dates)) {
       return false;
     }
-    days->day += 86400.0 * (double)(now - before);
+    days->day += 86400.0 * (double)(now - old);
   } else if (days->begun && clock->date[0] == 0 && clock->seconds < days->last.seconds - 43200) {
     days->day += 86400; // past midnight
   }
@@ -38,8 +34,7 @@ typedef struct {
   size_t unreadable; // wanted cells that are not empty and have none
 } Line;
 
-// Reads the requested columns of a line to row[count]. Returns a static text that states what is
-// wrong with the file, or NULL.
+// Reads the requested columns of a line to row[count]. Returns what is wrong, static, or NULL.
 static const char *read_line(Line *out, double *row, Days *days, const SbTextTable *table,
                              const size_t *column, size_t count, const GString *text) {
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
@@ -67,8 +62,7 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
   return wrong;
 }
 
-// Counts a line that is left out, and stores the first one, preferably one that is not a damaged
-// row.
+// Counts a line that is left out; stores the first one, preferably not a damaged row.
 static void leave_line(SbTextTableRows *out, int number, const GString *text, bool damaged) {
   *(damaged ? &out->damaged : &out->skipped) += 1;
   if (out->left_text == NULL || (!damaged && out->skipped == 1)) {
@@ -83,24 +77,21 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   *out = (SbTextTableRows){0};
   Days days[SB_TEXT_TABLE_COLUMNS_MAX] = {0};
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
-  SbTextTableLines *lines = &table->file->lines;
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
-  const GString *text;
-  // A row has two bytes at least. Memory that is not written to does not count.
-  const size_t room = MIN(lines->length / 2 + 1, SB_TEXT_TABLE_ROWS_MAX);
-  size_t begun = 0; // blocks behind blank lines or names
+  const size_t lines = table->file->line->len, room = MIN(lines + 1, SB_TEXT_TABLE_ROWS_MAX);
+  size_t begun = 0, number = 0; // blocks behind blank lines or names; of the line
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
   }
   bool blank = false, cut = false, other = false;
-  sb_text_table_seek(lines, 0);
-  while (wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
+  while (wrong == NULL && number < lines) {
     Line line = {0};
-    if ((size_t)lines->number <= table->header_lines) {
+    const GString *text = sb_text_table_line(table, number++);
+    if (number <= table->header_lines) {
       if (sb_text_table_is_row(table, text)) {
-        leave_line(out, lines->number, text, false);
+        leave_line(out, (int)number, text, false);
       }
       continue;
     }
@@ -122,16 +113,15 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     } else if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
       const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
-      leave_line(out, lines->number, text, damaged);
+      leave_line(out, (int)number, text, damaged);
     }
   }
-  wrong = wrong != NULL ? wrong : lines->wrong;
   for (size_t k = 0; k < count; k++) { // freed where its size becomes 0
     value[k] = g_renew(double, value[k], wrong == NULL ? MAX(out->rows, 1) : 0);
   }
   if (wrong != NULL) {
     const bool date = wrong == ambiguous_date;
-    sb_issues_add_choice(issues, table->file->shown, lines->number, date ? "dates" : NULL,
+    sb_issues_add_choice(issues, table->file->shown, (int)number, date ? "dates" : NULL,
                          date ? "day-month\nmonth-day" : NULL, !date, "%s", wrong);
     g_clear_pointer(&out->left_text, g_free);
   }
@@ -139,8 +129,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   return wrong == NULL;
 }
 
-// Appends the numbers of a line. Returns their number, without empty cells at the end beyond
-// `columns`; -1: a cell is not a number.
+// Appends and counts the numbers of a line, without empty last cells beyond `columns`; -1: a text.
 static gssize append_cells(GArray *out, const GString *line, size_t columns, size_t most,
                            const SbTextTableDialect *dialect) {
   const char *at = line->str;
@@ -164,14 +153,12 @@ static gssize append_cells(GArray *out, const GString *line, size_t columns, siz
 bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table, size_t most,
                                GPtrArray *issues) {
   *out = (SbTextTableMatrix){.value = g_array_new(FALSE, FALSE, sizeof(double))};
-  SbTextTableLines *lines = &table->file->lines;
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
-  const GString *text;
-  const char *wrong = NULL;
   bool good = true;
-  sb_text_table_seek(lines, 0);
-  while (good && wrong == NULL && (text = sb_text_table_next(lines)) != NULL) {
-    const bool above = (size_t)lines->number <= table->header_lines, headed = block.headed;
+  int number = 0;
+  while (good && (guint)number < table->file->line->len) {
+    const GString *text = sb_text_table_line(table, (size_t)number++);
+    const bool above = (size_t)number <= table->header_lines, headed = block.headed;
     const size_t columns = out->rows > 0 ? out->columns : table->file->shape.cells;
     const guint begin = out->value->len;
     const bool data = text->len > 0 && strspn(text->str, "#%!") == 0;
@@ -181,33 +168,29 @@ bool sb_text_table_read_matrix(SbTextTableMatrix *out, const SbTextTable *table,
     }
     const bool other = above || g_strcmp0(block.names, table->file->names) != 0;
     if (count > 0 && other) {
-      out->other_line = out->other == 0 ? lines->number : out->other_line;
+      out->other_line = out->other == 0 ? number : out->other_line;
       out->other++;
     } else if (count > 0) {
       out->columns = out->rows == 0 ? (size_t)count : out->columns;
-      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? lines->number : out->ragged;
+      out->ragged = out->ragged == 0 && (size_t)count != out->columns ? number : out->ragged;
       out->rows++;
     }
     g_array_set_size(out->value, other || count < 0 ? begin : out->value->len);
     if (!above && ((count < 0 && !block.headed) || (count > 0 && headed && !other))) {
       g_autofree char *shown = sb_printable(text->str, MIN(text->len, 40));
       good = sb_issues_add(
-          issues, table->file->shown, lines->number, NULL, NULL,
+          issues, table->file->shown, number, NULL, NULL,
           count < 0 ? "numbers expected, not \"%s\"" : "begins the table again: \"%s\"", shown);
     } else if ((count > 0 && (size_t)count > most) || out->value->len > 3 * most) {
-      wrong = "has too many numbers";
+      good = sb_issues_add(issues, table->file->shown, number, NULL, NULL, "has too many numbers");
     }
   }
   g_free(block.names);
-  if (good && wrong == NULL && 2 * out->other >= out->rows) {
+  if (good && 2 * out->other >= out->rows) {
     good = sb_issues_add(
         issues, table->file->shown, out->other_line, NULL, NULL,
         "%zu rows of numbers are another table than the %zu of the longest: remove one", out->other,
         out->rows);
-  }
-  wrong = wrong != NULL ? wrong : lines->wrong;
-  if (good && wrong != NULL) {
-    good = sb_issues_add(issues, table->file->shown, lines->number, NULL, NULL, "%s", wrong);
   }
   if (!good) {
     g_clear_pointer(&out->value, g_array_unref);

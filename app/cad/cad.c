@@ -1,14 +1,6 @@
 // See cad.h.
 #include "app/cad/cad_private.h"
 
-#include "app/base/error.h"
-#include "app/base/number.h"
-#include "app/base/unit.h"
-#include "app/cad/profile.h"
-
-#include <math.h>
-#include <string.h>
-
 SbCadBody *sb_cad_body_new(const char *name) {
   SbCadBody *body = g_new0(SbCadBody, 1);
   body->name = g_strdup(name);
@@ -26,17 +18,16 @@ void sb_cad_body_free(SbCadBody *body) {
 }
 
 char *sb_cad_axis_text(const double *through, const double *direction) {
-  char shown[6][SB_NUMBER_SIZE];
+  char text[6][SB_NUMBER_SIZE];
   const double length = hypot(hypot(direction[0], direction[1]), direction[2]);
   for (int i = 0; i < 6; i++) {
     const double value = i >= 3            ? direction[i - 3] / length
                          : through != NULL ? 1e3 * through[i]
                                            : 0;
-    sb_number_round(shown[i], fabs(value) < 1e-9 ? 0 : value, 6);
+    sb_number_round(text[i], fabs(value) < 1e-9 ? 0 : value, 6);
   }
-  g_autofree char *point = g_strdup_printf("through %s, %s, %s mm ", shown[0], shown[1], shown[2]);
-  return g_strdup_printf("%salong %s, %s, %s", through != NULL ? point : "", shown[3], shown[4],
-                         shown[5]);
+  g_autofree char *at = g_strdup_printf("through %s, %s, %s mm ", text[0], text[1], text[2]);
+  return g_strdup_printf("%salong %s, %s, %s", through ? at : "", text[3], text[4], text[5]);
 }
 
 SbCad *sb_cad_new(const char *format) {
@@ -56,6 +47,67 @@ void sb_cad_free(SbCad *cad) {
   g_free(cad->unit);
   g_free(cad->axis);
   g_free(cad);
+}
+
+// Two radii that are one [m]; and the shortest cylinder that counts for more than a rounded corner.
+static const double EQUAL = 1e-7, SHORTEST = 50e-6;
+
+static bool is_level(const SbPiece *p) {
+  return p->bulge == 0 && fabs(p->y1 - p->y0) <= EQUAL && fabs(p->x1 - p->x0) > EQUAL;
+}
+
+// The wall beside an outer cylinder: follows the outline from piece `from` by `step` while it
+// rises. The straight radial piece of most height gives its place, else the middle of the rise.
+static double wall(double *height, const SbPiece *pieces, int count, int from, int step) {
+  const SbPiece *floor = &pieces[from];
+  const double radius = floor->y0, start = step > 0 ? floor->x1 : floor->x0;
+  double at = NAN, tallest = 0, end = start;
+  *height = 0;
+  for (int n = 1; n < count; n++) {
+    const SbPiece *piece = &pieces[((from + step * n) % count + count) % count];
+    const double r0 = step > 0 ? piece->y0 : piece->y1, r1 = step > 0 ? piece->y1 : piece->y0;
+    if (r1 < r0 - EQUAL || (is_level(piece) && fabs(piece->x1 - piece->x0) > SHORTEST)) {
+      break;
+    }
+    if (piece->bulge == 0 && fabs(piece->x1 - piece->x0) <= EQUAL && r1 - r0 > tallest) {
+      tallest = r1 - r0;
+      at = piece->x0;
+    }
+    end = step > 0 ? piece->x1 : piece->x0;
+    *height = r1 - radius;
+  }
+  return isnan(at) ? (start + end) / 2 : at;
+}
+
+// Appends lands, bores and grooves of a counter-clockwise profile.
+static void add_features(SbCadBody *body) {
+  const SbProfile profile = sb_cad_profile(body);
+  const int count = (int)profile.count - !profile.closed;
+  g_autofree SbPiece *pieces = g_new(SbPiece, MAX(count, 1));
+  for (int i = 0; i < count; i++) {
+    pieces[i] = sb_profile_piece(&profile, (size_t)i);
+  }
+  for (int i = 0; i < count; i++) {
+    const SbPiece *piece = &pieces[i];
+    const double length = fabs(piece->x1 - piece->x0);
+    if (!is_level(piece) || piece->y0 <= EQUAL || length < SHORTEST) {
+      continue;
+    }
+    // Counter-clockwise: material is on the left, so an outer surface runs towards -x.
+    const bool outer = piece->x1 < piece->x0;
+    SbCadFeature feature = {fmin(piece->x0, piece->x1), fmax(piece->x0, piece->x1), 2 * piece->y0,
+                            0, outer ? SB_CAD_LAND : SB_CAD_BORE};
+    if (outer) {
+      double left, right;
+      const double x0 = wall(&left, pieces, count, i, 1);
+      const double x1 = wall(&right, pieces, count, i, -1);
+      if (fmin(left, right) > SHORTEST) {
+        feature = (SbCadFeature){x0, x1, 2 * piece->y0, fmin(left, right), SB_CAD_GROOVE};
+      }
+    }
+    g_array_append_val(body->features, feature);
+  }
+  g_array_sort(body->features, sb_number_compare); // by x0
 }
 
 static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
@@ -82,7 +134,7 @@ static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
   if (!body->measured) {
     body->solid = body->revolved;
   }
-  sb_cad_features(body);
+  add_features(body);
 }
 
 // Makes a body within an odd number of others of its layer a cavity of the smallest one.
@@ -114,16 +166,13 @@ static void join_outline_cavities(SbCad *cad) {
   }
 }
 
-// Differences of the moments across the axis, and of the volumes, from those of a body of
-// revolution that are reported as a warning.
+// Relative differences of moments and volumes from a body of revolution that cause a warning.
 static const double ROUND = 0.02;
 
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
   for (guint i = 0; i < cad->bodies->len; i++) {
-    settle_body(cad->bodies->pdata[i], choices);
-  }
-  for (guint i = 0; i < cad->bodies->len; i++) {
     SbCadBody *body = cad->bodies->pdata[i];
+    settle_body(body, choices);
     double(*const moment)[3] = body->solid.inertia;
     const double apart = hypot(moment[1][1] - moment[2][2], 2 * moment[1][2]);
     const double uneven = apart / (moment[1][1] + moment[2][2]);
@@ -139,21 +188,73 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
 }
 
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {
-  const size_t bytes_max = (size_t)256 << 20;
+  const size_t most = (size_t)256 << 20;
   g_autofree char *shown = sb_printable(path, strlen(path));
-  size_t length;
-  g_autofree char *text =
-      sb_reader_load_file(&length, path, shown, bytes_max, SB_APP_ERROR_INPUT, error);
+  size_t size;
+  g_autofree char *text = sb_reader_load_file(&size, path, shown, most, SB_APP_ERROR_INPUT, error);
   if (text == NULL) {
     return NULL;
   }
   // The content decides; the name only where the content is of no known kind.
   g_autofree char *lower = g_ascii_strdown(path, -1);
-  return g_strstr_len(text, (gssize)MIN(length, 1000), "ISO-10303-21") != NULL
+  return g_strstr_len(text, (gssize)MIN(size, 1000), "ISO-10303-21") != NULL
              ? sb_cad_read_step(path, shown, choices, error)
-         : sb_cad_is_stl(text, length) || g_str_has_suffix(lower, ".stl")
-             ? sb_cad_parse_stl(text, length, shown, choices, error)
-             : sb_cad_parse_dxf(text, length, shown, choices, error);
+         : sb_cad_is_stl(text, size) || g_str_has_suffix(lower, ".stl")
+             ? sb_cad_parse_stl(text, size, shown, choices, error)
+             : sb_cad_parse_dxf(text, size, shown, choices, error);
+}
+
+static bool read_point(SbProfilePoint *out, const char *word, double scale) {
+  g_auto(GStrv) numbers = g_strsplit(word, ",", -1);
+  const guint parts = g_strv_length(numbers);
+  double value[3] = {0};
+  bool good = parts == 2 || parts == 3;
+  for (guint k = 0; good && k < parts; k++) {
+    good = sb_number_parse(&value[k], numbers[k]);
+  }
+  *out = (SbProfilePoint){scale * value[0], scale * value[1], value[2]};
+  return good;
+}
+
+GArray *sb_profile_parse(const char *text, bool *closed, GError **error) {
+  g_auto(GStrv) words = g_strsplit_set(text, " \t\r\n", -1);
+  g_autoptr(GArray) points = g_array_new(FALSE, FALSE, sizeof(SbProfilePoint));
+  double scale = 0;
+  bool good = true;
+  for (char **word = words; good && *word != NULL; word++) {
+    SbProfilePoint point;
+    if (**word == '\0') {
+      continue;
+    }
+    if (scale == 0) {
+      good = sb_unit_scale(&scale, *word, "m", "mm", NULL) ||
+             sb_app_error_input(error, "starts with the unit of its points, not '%s'", *word);
+    } else if (points->len == SB_PROFILE_MAX) {
+      good = sb_app_error_input(error, "has more than %d points", SB_PROFILE_MAX);
+    } else if (!read_point(&point, *word, scale)) {
+      good = sb_app_error_input(error, "point %u is not x,r or x,r,bulge", points->len + 1);
+    } else {
+      g_array_append_val(points, point);
+    }
+  }
+  const SbProfilePoint *point = (const SbProfilePoint *)(void *)points->data;
+  const guint count = points->len;
+  *closed = count > 1 && point[0].x == point[count - 1].x && point[0].r == point[count - 1].r;
+  g_array_set_size(points, count - (*closed ? 1 : 0));
+  good = good && (points->len >= 2 ||
+                  sb_app_error_input(error, "has %u points, not two or more", points->len));
+  return good ? g_steal_pointer(&points) : NULL;
+}
+
+void sb_profile_turn(GArray *points, bool closed) {
+  const SbProfile profile = {(void *)points->data, points->len, closed};
+  const guint n = points->len > 1 && sb_profile_area(&profile) < 0 ? points->len : 0;
+  g_autofree SbProfilePoint *old = g_memdup2(points->data, n * sizeof *old);
+  for (guint i = 0; i < n; i++) {
+    SbProfilePoint *p = &g_array_index(points, SbProfilePoint, i);
+    *p = old[n - 1 - i];
+    p->bulge = i + 1 < n ? -old[n - 2 - i].bulge : closed ? -old[n - 1].bulge : 0;
+  }
 }
 
 char *sb_cad_profile_text(const SbCadBody *body) {

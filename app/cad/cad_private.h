@@ -1,66 +1,37 @@
 // Shared by the readers of DXF, STEP and STL.
 #pragma once
 
+#include "app/base/error.h"
+#include "app/base/number.h"
+#include "app/base/unit.h"
 #include "app/cad/cad.h"
 
 #include "engine/numeric/arc.h"
+
+#include <math.h>
+#include <string.h>
 
 // Processor time that sealbench-cad may use for one file [s], after which SIGXCPU ends it; time on
 // the clock without any use of the processor [s], after which it ends itself by SIGALRM.
 enum { SB_CAD_SECONDS_MAX = 60, SB_CAD_STALLED_MAX = 120 };
 
-// A straight piece or an arc from (x0, y0) to (x1, y1) in the plane of the drawing [m]; `bulge` as
-// in SbProfilePoint: positive turns left, 0 is straight.
-typedef struct {
-  double x0, y0, x1, y1, bulge;
-} SbCadPiece;
-
-// Returns the scalar product of two vectors.
-static inline double sb_cad_dot(const double a[3], const double b[3]) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-// Writes the vector product of `a` and `b`; `product` is neither of them.
-static inline void sb_cad_cross(double product[3], const double a[3], const double b[3]) {
-  for (int k = 0; k < 3; k++) {
-    const int next = (k + 1) % 3, last = (k + 2) % 3;
-    product[k] = a[next] * b[last] - a[last] * b[next];
-  }
-}
-
 // Writes the point of a curve at t in [0, 1] to `xy`.
 typedef void (*SbCadCurve)(const void *curve, double t, double xy[2]);
 
-// Appends to `pieces` (of SbCadPiece) a chain of pieces that follow the curve `at(curve, t)` [m]
-// from t = 0 to 1 within SB_CAD_TOLERANCE. The curve is first divided into `steps` equal intervals
-// of t, at least 1. Returns false if the curve is not finite or needs too many pieces; `pieces`
-// then contains a part of it.
+// Appends to `pieces` (of SbPiece) a chain of pieces that follow the curve `at(curve, t)` [m]
+// from t = 0 to 1 within SB_CAD_TOLERANCE, first divided into `steps` >= 1 equal intervals of t.
+// Returns false, with a part in `pieces`, if the curve is not finite or needs too many pieces.
 bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps);
 
 // Returns the arc from `from` through `middle` to `to`; straight if `middle` is on the line.
-SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
-
-// Returns the arc of a piece with a bulge.
-SbArc sb_cad_circle(const SbCadPiece *piece);
-
-// Returns the length of a piece.
-double sb_cad_length(const SbCadPiece *piece);
-
-// Writes the point of a piece at a fraction of its length.
-void sb_cad_point(const SbCadPiece *piece, double part, double at[2]);
-
-// Returns the position along a piece of the point on its line or circle that is nearest to (x, y):
-// 0 at its start, 1 at its end. On a circle, of the positions that differ by full turns, the one
-// nearest to 0.5: slightly before the start it is slightly negative. Writes the distance of (x, y)
-// from the line or circle [m], never negative, to *off.
-double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off);
+SbPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]);
 
 // Largest number of pieces of a layer: each end is compared with each piece.
 enum { SB_CAD_PIECES_MAX = 5000 };
 
 // An outline, as a chain of pieces.
 typedef struct {
-  GArray *chain; // of SbCadPiece
+  GArray *chain; // of SbPiece
   bool closed;   // else by the axis
   guint part;    // equal for outlines of lines that are connected
   bool unsure;   // lines within it are edges of the part or bound a bore
@@ -69,16 +40,15 @@ typedef struct {
 // What is drawn above the axis, or below it and mirrored. The caller provides the arrays.
 typedef struct {
   GPtrArray *outlines; // of SbCadOutline
-  GArray *pieces;      // of SbCadPiece: all those of the outlines; set by the caller
-  GArray *alone;       // of SbCadPiece: they begin at an end that meets no other
+  GArray *pieces;      // of SbPiece: all those of the outlines; set by the caller
+  GArray *alone;       // of SbPiece: they begin at an end that meets no other
   guint doubled;       // pieces drawn twice, of which one is ignored
   guint inner;         // pieces within an outline, which are ignored
 } SbCadLines;
 
-// Appends the outlines of the pieces (of SbCadPiece) of closed entities, above the axis and closed
+// Appends the outlines of the pieces (of SbPiece) of closed entities, above the axis and closed
 // by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
-// share bound neither the material of both nor a recess, an outline within another one at its edge;
-// they vanish.
+// share vanish: they bound neither the material of both nor a recess, an outline at an edge.
 void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
 // Appends the outlines of other lines: the outer boundary of those that are connected. Lines within
@@ -86,23 +56,20 @@ void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, doub
 // to that of another; else the outline is unsure.
 void sb_cad_add_open(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
-// Finds the outlines in `entities` (of GArray of SbCadPiece) about the line y = 0, with x as drawn
+// Finds the outlines in `entities` (of GArray of SbPiece) about the line y = 0, with x as drawn
 // and r = |y|: those above it, or below if there are none above. Ends within `gap` [m] are one
 // point; the line y = 0 closes what ends on it. Entities that close by themselves are outlines;
 // edges that two of them share vanish. Of other pieces, in any order, an outline is the outer
-// boundary of those that are connected. Appends them as bodies, with the name `name`, to
-// cad->bodies, and warnings on what was ignored and on halves that differ. The caller then calls
-// sb_cad_settle().
+// boundary of those that are connected. Appends them as bodies named `name`, for sb_cad_settle(),
+// and warnings on what was ignored and on halves that differ.
 void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap);
 
 // Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the
 // axis (x along the axis, r = |y|, one half or both), joined as by sb_cad_outlines() (10 nm): the
-// outline with the largest revolved volume; or body->why, unless that is set. Adds a warning to
-// `cad` if there are several outlines.
+// outline with the largest revolved volume, with a warning if there are several; or body->why.
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
-// Returns a body with a copy of `name` and empty arrays. Freed by sb_cad_body_free(), or owned by
-// the drawing that it is added to.
+// Returns a body with a copy of `name`, empty. Freed by sb_cad_body_free() or with its drawing.
 SbCadBody *sb_cad_body_new(const char *name);
 
 // Returns the half-section of a body, borrowed.
@@ -116,12 +83,8 @@ void sb_cad_body_free(SbCadBody *body);
 // Completes the bodies: applies `flip` and `shift`, orders the profiles counter-clockwise, checks
 // them, and computes `revolved`, `solid` (unless `measured`) and the features. If a profile bounds
 // no body, it becomes empty and `why` states the problem. A body within another one of its layer
-// becomes its cavity. Warns for each measured body that is not one of revolution. To be called
-// once.
+// becomes its cavity. Warns for each measured body that is not one of revolution. Called once.
 void sb_cad_settle(SbCad *cad, const SbCadChoices *choices);
-
-// Appends lands, bores and grooves of a counter-clockwise profile, as sb_cad_settle() has done.
-void sb_cad_features(SbCadBody *body);
 
 // Returns the sentence SbCad.axis for an axis along `direction` [3] through the point `through` [3]
 // [m]; `through` NULL: it names no point. Freed by g_free().
@@ -140,11 +103,9 @@ bool sb_cad_measure(SbSolid *solid, int body, bool *coarse);
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
                         GError **error);
 
-// Returns whether bytes are an STL file: the size fits its binary header, or the first word is
-// "solid".
+// Returns whether bytes are an STL file: the size fits the binary header, or "solid" is first.
 bool sb_cad_is_stl(const char *data, gsize length);
 
-// Reads the bytes of an STL file as one body, named like the file `path`, into a settled drawing.
-// Errors as sb_cad_read().
+// Reads the bytes of an STL file `path`, after which bodies are named. Errors as sb_cad_read().
 SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
                         const SbCadChoices *choices, GError **error);

@@ -1,8 +1,6 @@
 // Curves as straight pieces and arcs. Also compiled into sealbench-cad.
 #include "app/cad/cad_private.h"
 
-#include <math.h>
-
 // Depth of the division, pieces of a curve, and points at which a piece is compared with the curve.
 enum { DEPTH_MAX = 12, PIECES_MAX = 20000, POINTS = 9 };
 
@@ -10,7 +8,7 @@ enum { DEPTH_MAX = 12, PIECES_MAX = 20000, POINTS = 9 };
 // larger one between them; relative to the tolerance.
 static const double POINT = 1e-3, BETWEEN = 0.9;
 
-SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]) {
+SbPiece sb_cad_arc(const double from[2], const double middle[2], const double to[2]) {
   const double ax = from[0] - middle[0], ay = from[1] - middle[1];
   const double bx = to[0] - middle[0], by = to[1] - middle[1];
   // The inscribed angle phi leaves an arc of 2 (pi - phi); it turns left where its middle lies on
@@ -20,45 +18,10 @@ SbCadPiece sb_cad_arc(const double from[2], const double middle[2], const double
   const double chord = hypot(to[0] - from[0], to[1] - from[1]);
   const double arc = tan((M_PI - phi) / 2);
   const double bulge = phi > M_PI / 2 && arc * chord / 2 < 1e-12 ? 0 : arc;
-  return (SbCadPiece){from[0], from[1], to[0], to[1], cross > 0 ? -bulge : bulge};
+  return (SbPiece){from[0], from[1], to[0], to[1], cross > 0 ? -bulge : bulge};
 }
 
-SbArc sb_cad_circle(const SbCadPiece *piece) {
-  const double from[2] = {piece->x0, piece->y0}, to[2] = {piece->x1, piece->y1};
-  return sb_arc_of(from, to, piece->bulge);
-}
-
-double sb_cad_length(const SbCadPiece *piece) {
-  const double chord = hypot(piece->x1 - piece->x0, piece->y1 - piece->y0);
-  const double half = 2 * atan(fabs(piece->bulge));
-  return half > 0 ? chord * half / sin(half) : chord;
-}
-
-void sb_cad_point(const SbCadPiece *piece, double part, double at[2]) {
-  at[0] = piece->x0 + part * (piece->x1 - piece->x0);
-  at[1] = piece->y0 + part * (piece->y1 - piece->y0);
-  if (piece->bulge != 0) {
-    const SbArc arc = sb_cad_circle(piece);
-    sb_arc_place(&arc, part, at);
-  }
-}
-
-double sb_cad_place(const SbCadPiece *piece, double x, double y, double *off) {
-  const double dx = piece->x1 - piece->x0, dy = piece->y1 - piece->y0, chord = hypot(dx, dy);
-  if (piece->bulge == 0) {
-    const double u = x - piece->x0, v = y - piece->y0;
-    *off = chord > 0 ? fabs(v * dx - u * dy) / chord : hypot(u, v);
-    return (u * dx + v * dy) / (chord * chord);
-  }
-  const SbArc arc = sb_cad_circle(piece);
-  const double u = x - arc.centre[0], v = y - arc.centre[1], once = 2 * M_PI / fabs(arc.sweep);
-  const double part = fmod((atan2(v, u) - arc.start) / arc.sweep, once);
-  *off = fabs(hypot(u, v) - arc.radius);
-  return part < 0.5 - once / 2 ? part + once : part > 0.5 + once / 2 ? part - once : part;
-}
-
-static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, double t1,
-                   int depth) {
+static bool divide(GArray *out, SbCadCurve at, const void *curve, double t0, double t1, int depth) {
   double p[POINTS][2], extent = 0;
   for (int i = 0; i < POINTS; i++) {
     at(curve, t0 + (t1 - t0) * i / (POINTS - 1), p[i]);
@@ -70,20 +33,20 @@ static bool divide(GArray *pieces, SbCadCurve at, const void *curve, double t0, 
   if (extent <= POINT * SB_CAD_TOLERANCE) {
     return true; // a point
   }
-  const SbCadPiece piece = sb_cad_arc(p[0], p[POINTS / 2], p[POINTS - 1]);
+  const SbPiece piece = sb_cad_arc(p[0], p[POINTS / 2], p[POINTS - 1]);
   bool good = fabs(piece.bulge) <= 1;
   for (int i = 1; good && i < POINTS - 1; i++) {
     double off;
-    (void)sb_cad_place(&piece, p[i][0], p[i][1], &off);
+    (void)sb_piece_place(&piece, p[i][0], p[i][1], &off);
     good = off <= BETWEEN * SB_CAD_TOLERANCE;
   }
   if (good) {
-    g_array_append_val(pieces, piece);
-    return pieces->len <= PIECES_MAX;
+    g_array_append_val(out, piece);
+    return out->len <= PIECES_MAX;
   }
   const double middle = (t0 + t1) / 2;
-  return depth < DEPTH_MAX && divide(pieces, at, curve, t0, middle, depth + 1) &&
-         divide(pieces, at, curve, middle, t1, depth + 1);
+  return depth < DEPTH_MAX && divide(out, at, curve, t0, middle, depth + 1) &&
+         divide(out, at, curve, middle, t1, depth + 1);
 }
 
 bool sb_cad_curve(GArray *pieces, SbCadCurve at, const void *curve, int steps) {

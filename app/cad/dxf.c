@@ -6,23 +6,12 @@
 //
 // LINE, ELLIPSE, SPLINE and 3D polylines are in world coordinates. The others are in object
 // coordinates, whose x is reversed if the extrusion direction is (0, 0, -1).
-#include "app/base/error.h"
-#include "app/base/unit.h"
 #include "app/cad/dxf_private.h"
 #include "app/cad/dxf_words.def"
 
-#include <math.h>
-
-// Pieces, entities read, entities placed and layers with pieces of a file; nested blocks, of which
-// one may contain itself; different entities left out.
-enum {
-  DXF_PIECES_MAX = 100000,
-  ENTITIES_MAX = 1000000,
-  PLACED_MAX = 100000,
-  LAYERS_MAX = 200,
-  DXF_DEPTH_MAX = 8,
-  LEFT_OUT_MAX = 20
-};
+// Largest numbers of pieces, entities read, entities placed, layers; nested blocks, kinds left out.
+enum { DXF_PIECES_MAX = 100000, ENTITIES_MAX = 1000000, PLACED_MAX = 100000, LAYERS_MAX = 200 };
+enum { DXF_DEPTH_MAX = 8, LEFT_OUT_MAX = 20 };
 
 // Ends are one point within this, unless `join` is given; drawings round to a thousandth of their
 // unit at worst. Larger gaps that may be errors of drawing; distance of an axis below all [m].
@@ -42,16 +31,14 @@ typedef struct {
   GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
   GHashTable *line_types; // the same -> its type of lines
   GPtrArray *names;       // of the layers with pieces, in order of appearance
-  GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbCadPiece [m]
+  GPtrArray *layers;      // in the order of `names`: GPtrArray of GArray of SbPiece [m]
   GHashTable *left_out;   // type and reason -> count
-  GArray *centre;         // of SbCadPiece [m]: centre lines
+  GArray *centre;         // of SbPiece [m]: centre lines
   double low;             // all pieces are above this y [m]
   guint pieces, items, placed;
   char *unit;   // owned; NULL: not known
   double scale; // its length [m]
 } Drawing;
-
-// ---- Placing ----
 
 // Returns the value of a name in any case.
 static gpointer find(GHashTable *table, const char *name) {
@@ -69,9 +56,9 @@ static bool is_centre_line(const Drawing *drawing, const SbDxfEntity *entity, co
   const char *type = by_layer ? find(drawing->line_types, layer) : entity->line_type;
   bool centre = false, straight = pieces->len > 0;
   for (guint i = 0; i < pieces->len; i++) {
-    const SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, i);
+    const SbPiece *piece = &g_array_index(pieces, SbPiece, i);
     double off;
-    (void)sb_cad_place(&g_array_index(pieces, SbCadPiece, 0), piece->x1, piece->y1, &off);
+    (void)sb_piece_place(&g_array_index(pieces, SbPiece, 0), piece->x1, piece->y1, &off);
     straight = straight && piece->bulge == 0 && off <= GAP;
   }
   for (size_t i = 0; straight && i < G_N_ELEMENTS(starts); i++) {
@@ -92,30 +79,28 @@ static void count_left_out(Drawing *drawing, const char *type, const char *reaso
   g_hash_table_insert(drawing->left_out, counted, GUINT_TO_POINTER(count + 1));
 }
 
-static bool add_pieces(Drawing *drawing, const char *name, bool centre, GArray *pieces,
-                       GError **error) {
+static bool add_pieces(Drawing *to, const char *name, bool centre, GArray *pieces, GError **error) {
   guint layer = 0;
-  while (layer < drawing->names->len &&
-         g_ascii_strcasecmp(drawing->names->pdata[layer], name) != 0) {
+  while (layer < to->names->len && g_ascii_strcasecmp(to->names->pdata[layer], name) != 0) {
     layer++;
   }
-  if (!centre && layer == drawing->names->len) {
-    g_ptr_array_add(drawing->names, g_strdup(name));
-    g_ptr_array_add(drawing->layers, g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref));
+  if (!centre && layer == to->names->len) {
+    g_ptr_array_add(to->names, g_strdup(name));
+    g_ptr_array_add(to->layers, g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref));
   }
   if (centre) {
-    g_array_append_vals(drawing->centre, pieces->data, pieces->len);
+    g_array_append_vals(to->centre, pieces->data, pieces->len);
   } else {
-    g_ptr_array_add(drawing->layers->pdata[layer], g_array_ref(pieces));
+    g_ptr_array_add(to->layers->pdata[layer], g_array_ref(pieces));
   }
   // No arc goes further from its chord than that is long times the bulge.
   for (guint i = 0; !centre && i < pieces->len; i++) {
-    const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+    const SbPiece *p = &g_array_index(pieces, SbPiece, i);
     const double deep = fabs(p->bulge) * hypot(p->x1 - p->x0, p->y1 - p->y0);
-    drawing->low = fmin(drawing->low, fmin(p->y0, p->y1) - deep);
+    to->low = fmin(to->low, fmin(p->y0, p->y1) - deep);
   }
-  drawing->pieces += pieces->len;
-  return (drawing->pieces <= DXF_PIECES_MAX && drawing->names->len <= LAYERS_MAX) ||
+  to->pieces += pieces->len;
+  return (to->pieces <= DXF_PIECES_MAX && to->names->len <= LAYERS_MAX) ||
          sb_app_error_input(error,
                             "more than %d pieces or %d layers: export the seal's parts alone",
                             DXF_PIECES_MAX, LAYERS_MAX);
@@ -189,7 +174,7 @@ static bool place_entity(Drawing *drawing, const SbDxfEntity *entity, const SbDx
   if (reason == NULL && sb_dxf_is(entity, "INSERT")) {
     return place_insert(drawing, entity, &way, on, depth, error);
   }
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   if (reason != NULL || !sb_dxf_pieces(pieces, &way, entity)) {
     count_left_out(drawing, entity->type, reason != NULL ? reason : "");
     return true;
@@ -218,8 +203,6 @@ static bool place_block(Drawing *drawing, const Block *block, const SbDxfMap *wa
   sb_dxf_entity_clear(&entity);
   return good;
 }
-
-// ---- The file ----
 
 static void block_free(gpointer data) {
   Block *block = data;
@@ -308,22 +291,25 @@ static bool read_file(Drawing *drawing, GError **error) {
 
 // Finds the axis of the bodies and returns the map that makes it the line y = 0.
 static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
-  double longest = 0, direction[3] = {1, 0, 0}, through[3] = {0};
+  double longest = 0, along[3] = {1, 0, 0}, at[3] = {0};
   const bool found = choices->axis == NULL && choices->through == NULL && !choices->section;
   for (guint i = 0; found && i < drawing->centre->len; i++) {
-    const SbCadPiece *line = &g_array_index(drawing->centre, SbCadPiece, i);
+    const SbPiece *line = &g_array_index(drawing->centre, SbPiece, i);
     const double dx = line->x1 - line->x0, dy = line->y1 - line->y0, length = hypot(dx, dy);
     if (length > longest) {
+      const double most = 1e-9 * length, sign = dx < -most || (dx <= most && dy < 0) ? -1 : 1;
       longest = length;
-      const double c = dx / length, s = dy / length;
-      const double sign = c < -1e-9 || (fabs(c) <= 1e-9 && s < 0) ? -1 : 1;
-      memcpy(direction, (double[]){sign * c, sign * s, 0}, sizeof direction);
-      memcpy(through, (double[]){line->x0, line->y0, 0}, sizeof through);
+      memcpy(along, (double[]){sign * dx, sign * dy, 0}, sizeof along);
+      memcpy(at, (double[]){line->x0, line->y0, 0}, sizeof at);
     }
   }
-  through[1] = choices->section ? drawing->low - AWAY : through[1];
-  const double *at = choices->section || choices->through == NULL ? through : choices->through;
-  const double *along = choices->section || choices->axis == NULL ? direction : choices->axis;
+  if (choices->axis != NULL && !choices->section) {
+    memcpy(along, choices->axis, sizeof along);
+  }
+  if (choices->through != NULL && !choices->section) {
+    memcpy(at, choices->through, sizeof at);
+  }
+  at[1] = choices->section ? drawing->low - AWAY : at[1];
   // The point of the line that is nearest to the drawing's origin is x = 0.
   const double length = hypot(along[0], along[1]), c = along[0] / length, s = along[1] / length;
   const double foot = at[0] * c + at[1] * s;
@@ -358,7 +344,7 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
     for (guint i = 0; i < entities->len; i++) {
       const GArray *pieces = entities->pdata[i];
       for (guint n = 0; n < pieces->len; n++) {
-        SbCadPiece *piece = &g_array_index(pieces, SbCadPiece, n);
+        SbPiece *piece = &g_array_index(pieces, SbPiece, n);
         *piece = sb_dxf_place(&axis, piece);
       }
     }
@@ -411,7 +397,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
       .names = g_ptr_array_new_with_free_func(g_free),
       .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref),
-      .centre = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)),
+      .centre = g_array_new(FALSE, FALSE, sizeof(SbPiece)),
       .low = INFINITY,
       .unit = g_strdup(choices->unit),
   };

@@ -1,13 +1,8 @@
 // Entities of a DXF: their pairs of a group code and a value, and their curves as pieces.
 #include "app/cad/dxf_private.h"
 
-#include "app/base/error.h"
-#include "app/base/number.h"
-
-#include <math.h>
-
 // Control points of a spline and its degree; values of a list.
-enum { CONTROL_MAX = 2000, DEGREE_MAX = 15, POINTS_MAX = 100000 };
+enum { CONTROL_MAX = 2000, DEGREE_MAX = 15, MOST = 100000 };
 
 // Beyond this an entity is left out [m].
 static const double FARTHEST = 1e6;
@@ -52,8 +47,6 @@ bool sb_dxf_number(const SbDxfReader *reader, double *out, GError **error) {
                             reader->value);
 }
 
-// ---- Entities ----
-
 void sb_dxf_entity_clear(SbDxfEntity *entity) {
   for (int i = 0; i < SB_DXF_LISTS; i++) {
     g_clear_pointer(&entity->list[i], g_array_unref);
@@ -80,11 +73,9 @@ static bool entity_take(SbDxfEntity *entity, const SbDxfReader *reader, GError *
   if (text != NULL) {
     g_strlcpy(text, reader->value, sizeof entity->layer);
   }
-  if (!((code >= 10 && code < 80) || code == 210 || code == 220 || code == 230)) {
-    return true;
-  }
-  if (!sb_dxf_number(reader, &value, error)) {
-    return false;
+  const bool number = (code >= 10 && code < 80) || code == 210 || code == 220 || code == 230;
+  if (!number || !sb_dxf_number(reader, &value, error)) {
+    return !number;
   }
   entity->number[code] = value;
   if (code == 30 || (code == 31 && sb_dxf_is(entity, "LINE"))) {
@@ -92,18 +83,16 @@ static bool entity_take(SbDxfEntity *entity, const SbDxfReader *reader, GError *
     entity->high = fmax(entity->high, value);
   }
   for (int i = 0; i < SB_DXF_LISTS; i++) {
-    GArray *list = entity->list[i];
+    GArray *to = entity->list[i];
     // A bulge belongs to the point before it.
-    while (code == list_code[i] && i == SB_DXF_BULGE &&
-           list->len + 1 < entity->list[SB_DXF_X]->len) {
+    while (code == list_code[i] && i == SB_DXF_BULGE && to->len + 1 < entity->list[SB_DXF_X]->len) {
       const double straight = 0;
-      g_array_append_val(list, straight);
+      g_array_append_val(to, straight);
     }
-    if (code == list_code[i] && list->len < POINTS_MAX) {
-      g_array_append_val(list, value);
+    if (code == list_code[i] && to->len < MOST) {
+      g_array_append_val(to, value);
     } else if (code == list_code[i]) {
-      return sb_app_error_input(error, "line %d: more than %d points", reader->next.line,
-                                POINTS_MAX);
+      return sb_app_error_input(error, "line %d: more than %d points", reader->next.line, MOST);
     }
   }
   return true;
@@ -147,8 +136,6 @@ static double at(const GArray *list, guint i) {
   return i < list->len ? g_array_index(list, double, i) : 0;
 }
 
-// ---- Curves, placed [m] ----
-
 static void map(const SbDxfMap *way, double x, double y, double xy[2]) {
   xy[0] = way->a * x + way->b * y + way->c;
   xy[1] = way->d * x + way->e * y + way->f;
@@ -161,12 +148,12 @@ SbDxfMap sb_dxf_after(const SbDxfMap *out, const SbDxfMap *in) {
       out->d * in->b + out->e * in->e,          out->d * in->c + out->e * in->f + out->f};
 }
 
-SbCadPiece sb_dxf_place(const SbDxfMap *way, const SbCadPiece *piece) {
+SbPiece sb_dxf_place(const SbDxfMap *way, const SbPiece *piece) {
   double from[2], to[2];
   map(way, piece->x0, piece->y0, from);
   map(way, piece->x1, piece->y1, to);
   const bool turned = way->a * way->e - way->b * way->d < 0;
-  return (SbCadPiece){from[0], from[1], to[0], to[1], turned ? -piece->bulge : piece->bulge};
+  return (SbPiece){from[0], from[1], to[0], to[1], turned ? -piece->bulge : piece->bulge};
 }
 
 // A part of an ellipse, from the angle `start` over `sweep`.
@@ -183,18 +170,18 @@ static void ellipse_at(const void *curve, double t, double xy[2]) {
 }
 
 // Adds a straight line or an arc; an arc is one if the map preserves circles, else is followed.
-static bool add_bulge(GArray *out, const SbDxfMap *way, const SbCadPiece *piece) {
+static bool add_bulge(GArray *out, const SbDxfMap *way, const SbPiece *piece) {
   const double u = hypot(way->a, way->d), v = hypot(way->b, way->e);
   const bool even =
       fabs(u - v) <= 1e-9 * (u + v) && fabs(way->a * way->b + way->d * way->e) <= 1e-9 * u * v;
   if (piece->bulge != 0 && !even) {
-    const SbArc arc = sb_cad_circle(piece);
+    const SbArc arc = sb_piece_arc(piece);
     const Ellipse circle = {
         way,      {arc.centre[0], arc.centre[1]}, {arc.radius, 0}, {0, arc.radius}, arc.start,
         arc.sweep};
     return sb_cad_curve(out, ellipse_at, &circle, 2);
   }
-  const SbCadPiece there = sb_dxf_place(way, piece);
+  const SbPiece there = sb_dxf_place(way, piece);
   g_array_append_val(out, there);
   return true;
 }
@@ -203,10 +190,9 @@ static bool add_bulge(GArray *out, const SbDxfMap *way, const SbCadPiece *piece)
 static bool add_ellipse(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) {
   const double *n = entity->number, up = n[230] < 0 ? -n[40] : n[40];
   const double end = n[42] > n[41] ? n[42] : n[42] + 2 * M_PI;
-  const Ellipse ellipse = {way,   {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]},
-                           n[41], end - n[41]};
-  return n[40] > 0 && ellipse.sweep <= 2 * M_PI + 1e-6 &&
-         sb_cad_curve(out, ellipse_at, &ellipse, 4);
+  const Ellipse curve = {way,   {n[10], n[20]}, {n[11], n[21]}, {-up * n[21], up * n[11]},
+                         n[41], end - n[41]};
+  return n[40] > 0 && curve.sweep <= 2 * M_PI + 1e-6 && sb_cad_curve(out, ellipse_at, &curve, 4);
 }
 
 // An arc in two halves. A circle has no angles; those that a file states for it are ignored.
@@ -218,8 +204,8 @@ static bool add_arc(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity)
   bool good = n[40] > 0;
   for (int i = 0; good && i < 2; i++) {
     const double a = start + i * turn / 2, b = a + turn / 2;
-    const SbCadPiece half = {n[10] + n[40] * cos(a), n[20] + n[40] * sin(a), n[10] + n[40] * cos(b),
-                             n[20] + n[40] * sin(b), tan(turn / 8)};
+    const SbPiece half = {n[10] + n[40] * cos(a), n[20] + n[40] * sin(a), n[10] + n[40] * cos(b),
+                          n[20] + n[40] * sin(b), tan(turn / 8)};
     good = add_bulge(out, way, &half);
   }
   return good;
@@ -284,9 +270,9 @@ static bool add_points(GArray *out, const SbDxfMap *way, const SbDxfEntity *enti
               (sb_dxf_is(entity, "LWPOLYLINE") || (flags & MESHES) == 0);
   for (guint i = 0; good && i + !(flags & CLOSED) < count; i++) {
     const guint next = (i + 1) % count;
-    const SbCadPiece piece = {at(entity->list[SB_DXF_X], i), at(entity->list[SB_DXF_Y], i),
-                              at(entity->list[SB_DXF_X], next), at(entity->list[SB_DXF_Y], next),
-                              at(entity->list[SB_DXF_BULGE], i)};
+    const SbPiece piece = {at(entity->list[SB_DXF_X], i), at(entity->list[SB_DXF_Y], i),
+                           at(entity->list[SB_DXF_X], next), at(entity->list[SB_DXF_Y], next),
+                           at(entity->list[SB_DXF_BULGE], i)};
     good = (piece.x0 == piece.x1 && piece.y0 == piece.y1) || add_bulge(out, way, &piece);
   }
   return good;
@@ -296,7 +282,7 @@ bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) 
   const double *n = entity->number;
   bool good = false;
   if (sb_dxf_is(entity, "LINE")) {
-    good = add_bulge(out, way, &(SbCadPiece){n[10], n[20], n[11], n[21], 0});
+    good = add_bulge(out, way, &(SbPiece){n[10], n[20], n[11], n[21], 0});
   } else if (sb_dxf_is(entity, "CIRCLE") || sb_dxf_is(entity, "ARC")) {
     good = add_arc(out, way, entity);
   } else if (sb_dxf_is(entity, "ELLIPSE")) {
@@ -307,7 +293,7 @@ bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) 
     good = add_points(out, way, entity);
   }
   for (guint i = 0; good && i < out->len; i++) {
-    const SbCadPiece *p = &g_array_index(out, SbCadPiece, i);
+    const SbPiece *p = &g_array_index(out, SbPiece, i);
     good = fmax(fmax(fabs(p->x0), fabs(p->y0)), fmax(fabs(p->x1), fabs(p->y1))) < FARTHEST;
   }
   return good;

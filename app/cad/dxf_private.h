@@ -3,8 +3,6 @@
 
 #include "app/cad/cad_private.h"
 
-#include <string.h>
-
 // Where a pair begins in the text; `line` is the number of lines before it.
 typedef struct {
   const char *at;
@@ -37,8 +35,7 @@ typedef struct {
   double a, b, c, d, e, f;
 } SbDxfMap;
 
-// Reads the next pair. Returns false at the end of the text; with an error if a code is not a
-// number or has no value.
+// Reads the next pair. Returns false at the end; with an error if a code is none or has no value.
 bool sb_dxf_read_pair(SbDxfReader *reader, GError **error);
 
 // Writes the number of the pair. Codes 60 to 79 are 16-bit integers. Returns false with an error.
@@ -61,8 +58,8 @@ bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error
 SbDxfMap sb_dxf_after(const SbDxfMap *out, const SbDxfMap *in);
 
 // Returns a piece where the map puts it, as a piece with the same part of a circle.
-SbCadPiece sb_dxf_place(const SbDxfMap *way, const SbCadPiece *piece);
+SbPiece sb_dxf_place(const SbDxfMap *way, const SbPiece *piece);
 
-// Appends the curves of an entity, mapped by `way` to m, to `out` (of SbCadPiece). Returns false if
+// Appends the curves of an entity, mapped by `way` to m, to `out` (of SbPiece). Returns false if
 // it is of a type that is not read, is not sound, or is too far away; `out` may then have a part.
 bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity);

@@ -1,7 +1,7 @@
 // The plane graph of the pieces of a layer, and the outlines that bound its faces.
 #include "app/cad/cad_private.h"
 
-#include <math.h>
+#include <stdlib.h>
 
 // Pairs of pieces that are close together and compared.
 enum { NEAR_MAX = 1000000 };
@@ -9,40 +9,38 @@ enum { NEAR_MAX = 1000000 };
 // Ends that are closer are one point, and shorter pieces are ignored [m].
 static const double TINY = 1e-9;
 
-static SbCadPiece reversed(SbCadPiece piece) {
-  return (SbCadPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
+static SbPiece reversed(SbPiece piece) {
+  return (SbPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
 }
 
 // A piece with the circle about its middle in which it is.
 typedef struct {
-  SbCadPiece piece;
+  SbPiece piece;
   double middle[2], reach;
   guint times;    // that it is drawn
   bool inside[2]; // its ends are within another piece
   guint part;     // of the graph: equal for edges that are connected
 } Drawn;
 
-static Drawn drawn_of(const SbCadPiece piece) {
-  Drawn drawn = {.piece = piece, .reach = sb_cad_length(&piece) / 2, .times = 1};
-  sb_cad_point(&piece, 0.5, drawn.middle);
+static Drawn drawn_of(const SbPiece piece) {
+  Drawn drawn = {.piece = piece, .reach = sb_piece_length(&piece) / 2, .times = 1};
+  sb_piece_point(&piece, 0.5, drawn.middle);
   return drawn;
 }
 
-// Divides a piece of `all` (of Drawn) at an end of the piece `by`: the remainder is appended.
-// Returns whether there is one.
+// Divides a piece of `all` (of Drawn) at an end of the piece `by` that is on it; false: none is.
 static bool divide_outline(GArray *all, guint index, guint by, double same) {
   Drawn *whole = &g_array_index(all, Drawn, index), *other = &g_array_index(all, Drawn, by);
-  const SbCadPiece piece = whole->piece, *ends = &other->piece;
+  const SbPiece piece = whole->piece, *ends = &other->piece;
   const double length = 2 * whole->reach, quarter = atan(piece.bulge);
   for (int end = 0; end < 2; end++) {
     double at[2], off;
-    sb_cad_point(ends, end, at);
-    const double part = sb_cad_place(&piece, at[0], at[1], &off);
+    sb_piece_point(ends, end, at);
+    const double part = sb_piece_place(&piece, at[0], at[1], &off);
     if (off <= same && part * length > same && (1 - part) * length > same) {
-      sb_cad_point(&piece, part, at);
-      Drawn first = drawn_of((SbCadPiece){piece.x0, piece.y0, at[0], at[1], tan(part * quarter)});
-      Drawn rest =
-          drawn_of((SbCadPiece){at[0], at[1], piece.x1, piece.y1, tan((1 - part) * quarter)});
+      sb_piece_point(&piece, part, at);
+      Drawn first = drawn_of((SbPiece){piece.x0, piece.y0, at[0], at[1], tan(part * quarter)});
+      Drawn rest = drawn_of((SbPiece){at[0], at[1], piece.x1, piece.y1, tan((1 - part) * quarter)});
       other->inside[end] = true;
       first.inside[0] = whole->inside[0];
       rest.inside[1] = whole->inside[1];
@@ -56,23 +54,20 @@ static bool divide_outline(GArray *all, guint index, guint by, double same) {
 
 // Returns whether two pieces are one, in any direction.
 static bool is_same(const Drawn *a, const Drawn *b, double same) {
-  const SbCadPiece *p = &a->piece, *q = &b->piece;
-  const double along =
-      fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
-  const double back =
-      fmax(hypot(p->x0 - q->x1, p->y0 - q->y1), hypot(p->x1 - q->x0, p->y1 - q->y0));
+  const SbPiece *p = &a->piece, *q = &b->piece;
+  const double one = fmax(hypot(p->x0 - q->x0, p->y0 - q->y0), hypot(p->x1 - q->x1, p->y1 - q->y1));
+  const double two = fmax(hypot(p->x0 - q->x1, p->y0 - q->y1), hypot(p->x1 - q->x0, p->y1 - q->y0));
   return hypot(a->middle[0] - b->middle[0], a->middle[1] - b->middle[1]) <= same &&
-         fmin(along, back) <= same;
+         fmin(one, two) <= same;
 }
 
 // Returns the pieces (as Drawn) without those of no length, divided where others end on them or run
 // along them; pieces that are one are counted in `times`. Of more than NEAR_MAX pairs of pieces
 // that are close together, the first are compared.
 static GArray *tidied(const GArray *pieces, double same) {
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(Drawn));
-  GArray *out = g_array_new(FALSE, FALSE, sizeof(Drawn));
+  GArray *all = g_array_new(FALSE, FALSE, sizeof(Drawn));
   for (guint i = 0; i < pieces->len; i++) {
-    const Drawn drawn = drawn_of(g_array_index(pieces, SbCadPiece, i));
+    const Drawn drawn = drawn_of(g_array_index(pieces, SbPiece, i));
     if (2 * drawn.reach > TINY) {
       g_array_append_val(all, drawn);
     }
@@ -96,32 +91,26 @@ static GArray *tidied(const GArray *pieces, double same) {
       }
     }
   }
-  for (guint i = 0; i < all->len; i++) {
-    if (g_array_index(all, Drawn, i).times > 0) {
-      g_array_append_val(out, g_array_index(all, Drawn, i));
+  for (guint i = all->len; i-- > 0;) {
+    if (g_array_index(all, Drawn, i).times == 0) {
+      g_array_remove_index(all, i);
     }
   }
-  return out;
+  return all;
 }
 
 // Edge i has the ends 2 i and 2 i + 1. An end is also the name of its edge when left from there.
 typedef struct {
   GArray *edges; // of Drawn; those from `drawn` on are on the axis
   guint drawn;
-  guint *node, *next; // of an end: the first end at its point, and the next one in a ring of those
+  guint *node, *next; // of an end: the first end at its point; the next one, counter-clockwise
+  guint *ends;        // of a node: number of its ends
 } Graph;
 
 // Returns the edge as it is left from an end.
-static SbCadPiece piece_from(const Graph *graph, guint end) {
-  const SbCadPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
+static SbPiece piece_from(const Graph *graph, guint end) {
+  const SbPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
   return end % 2 == 0 ? piece : reversed(piece);
-}
-
-// Makes the end `other`, which is alone at its point, one of those at the point of `end`.
-static void join_end(Graph *graph, guint other, guint end) {
-  graph->node[other] = graph->node[end];
-  graph->next[other] = graph->next[end];
-  graph->next[end] = other;
 }
 
 // Joins the ends at one point, and each end off the axis that is then alone to the nearest one
@@ -131,26 +120,25 @@ static void join_ends(Graph *graph, double gap, GArray *alone) {
   for (guint pass = 0; pass < 2 * count; pass++) {
     const bool first = pass < count;
     const guint end = pass % count;
-    const SbCadPiece piece = piece_from(graph, end);
-    const bool itself = sb_cad_length(&piece) > 2 * gap; // the gap of an arc
+    const SbPiece piece = piece_from(graph, end);
+    const bool itself = sb_piece_length(&piece) > 2 * gap; // the gap of an arc
     double nearest = first ? TINY * TINY : gap * gap;
     guint best = count;
-    if (first) {
-      graph->node[end] = graph->next[end] = end;
-    } else if (piece.y0 == 0 || graph->next[end] != end) {
+    if (!first && (piece.y0 == 0 || graph->ends[graph->node[end]] > 1)) {
       continue;
     }
     for (guint k = 0; k < (first ? end : count); k++) {
-      const SbCadPiece other = piece_from(graph, k);
+      const SbPiece other = piece_from(graph, k);
       const double dx = other.x0 - piece.x0, dy = other.y0 - piece.y0, off = dx * dx + dy * dy;
       if (off <= nearest && k != end && (itself || k / 2 != end / 2)) {
         nearest = off;
         best = k;
       }
     }
-    if (best < count) {
-      join_end(graph, end, best);
-    } else if (!first) {
+    if (best < count || first) {
+      graph->node[end] = best < count ? graph->node[best] : end;
+      graph->ends[graph->node[end]]++;
+    } else {
       g_array_append_vals(alone, &piece, 1);
     }
   }
@@ -170,74 +158,66 @@ static void close_by_axis(Graph *graph) {
     }
   }
   for (guint end = 0; end < count; end++) {
-    const guint own = part[end] = part[graph->node[end]];
-    guint ends = 1;
-    for (guint k = graph->next[end]; k != end; k = graph->next[k]) {
-      ends++;
-    }
-    open[own] = open[own] || (piece_from(graph, end).y0 == 0 && ends % 2 == 1);
+    const guint node = graph->node[end], own = part[end] = part[node];
+    open[own] = open[own] || (piece_from(graph, end).y0 == 0 && graph->ends[node] % 2 == 1);
     g_array_index(graph->edges, Drawn, end / 2).part = own;
   }
   for (guint end = 0; end < count; end++) {
-    const SbCadPiece from = piece_from(graph, end);
+    const SbPiece from = piece_from(graph, end);
     const bool begins = from.y0 == 0 && graph->node[end] == end && open[part[end]];
     guint best = count;
     double x = INFINITY; // of the next end to the right
     for (guint k = 0; begins && k < count; k++) {
-      const SbCadPiece to = piece_from(graph, k);
+      const SbPiece to = piece_from(graph, k);
       if (to.y0 == 0 && part[k] == part[end] && to.x0 > from.x0 + TINY && to.x0 < x) {
         best = k;
         x = to.x0;
       }
     }
     if (best < count) {
-      const Drawn axis = drawn_of((SbCadPiece){from.x0, 0, x, 0, 0});
+      const Drawn axis = drawn_of((SbPiece){from.x0, 0, x, 0, 0});
       g_array_append_val(graph->edges, axis);
-      join_end(graph, 2 * graph->edges->len - 2, end);
-      join_end(graph, 2 * graph->edges->len - 1, best);
+      graph->node[2 * graph->edges->len - 2] = end;
+      graph->node[2 * graph->edges->len - 1] = graph->node[best];
     }
   }
 }
 
-static gint compare_angles(gconstpointer a, gconstpointer b, gpointer angles) {
-  const double *angle = angles, x = angle[*(const guint *)a], y = angle[*(const guint *)b];
-  return (x > y) - (x < y);
+// An end, its point, and its direction at a small distance, where tangent edges differ.
+typedef struct {
+  guint end, node;
+  double angle;
+} Direction;
+
+static gint compare_directions(gconstpointer a, gconstpointer b) {
+  const Direction *p = a, *q = b;
+  return p->node != q->node ? (p->node > q->node) - (p->node < q->node)
+                            : (p->angle > q->angle) - (p->angle < q->angle);
 }
 
-// Orders the ends at each point counter-clockwise, by directions at a small distance, where tangent
-// edges differ. The boundary of a face, on its right, then goes on from the edge left from `end`
-// with that left from next[end ^ 1].
+// Orders the ends at each point counter-clockwise. The boundary of a face, on its right, then goes
+// on from the edge left from `end` with that left from next[end ^ 1].
 static void turn_ends(const Graph *graph) {
   const guint count = 2 * graph->edges->len;
-  g_autoptr(GArray) all = g_array_new(FALSE, FALSE, sizeof(guint));
-  g_autofree double *angle = g_new0(double, count + 1);
+  g_autofree Direction *all = g_new0(Direction, count + 1);
+  g_autofree double *near = g_new0(double, count + 1); // of a node: 1 / least reach of its edges
   for (guint end = 0; end < count; end++) {
-    double near = INFINITY;
-    g_array_set_size(all, 0);
-    for (guint k = end; graph->node[end] == end && (k != end || all->len == 0);
-         k = graph->next[k]) {
-      g_array_append_val(all, k);
-      near = fmin(near, g_array_index(graph->edges, Drawn, k / 2).reach);
-    }
-    for (guint i = 0; i < all->len; i++) {
-      const guint own = g_array_index(all, guint, i);
-      const SbCadPiece piece = piece_from(graph, own);
-      double at[2];
-      sb_cad_point(&piece, near / sb_cad_length(&piece), at);
-      angle[own] = atan2(at[1] - piece.y0, at[0] - piece.x0);
-    }
-    g_array_sort_with_data(all, compare_angles, angle);
-    for (guint i = 0; i < all->len; i++) {
-      graph->next[g_array_index(all, guint, i)] = g_array_index(all, guint, (i + 1) % all->len);
-    }
+    double *least = &near[graph->node[end]];
+    *least = fmax(*least, 1 / g_array_index(graph->edges, Drawn, end / 2).reach);
   }
-}
-
-// Twice the area between a piece and the point (x, 0), positive if it is on the left of the piece.
-static double area_of(const SbCadPiece *p, double x) {
-  const SbArc arc = p->bulge != 0 ? sb_cad_circle(p) : (SbArc){0};
-  return (p->x0 - x) * p->y1 - (p->x1 - x) * p->y0 +
-         arc.radius * arc.radius * (arc.sweep - sin(arc.sweep));
+  for (guint end = 0; end < count; end++) {
+    const SbPiece piece = piece_from(graph, end);
+    const guint node = graph->node[end];
+    double at[2];
+    sb_piece_point(&piece, 1 / near[node] / sb_piece_length(&piece), at);
+    all[end] = (Direction){end, node, atan2(at[1] - piece.y0, at[0] - piece.x0)};
+  }
+  qsort(all, count, sizeof *all, compare_directions);
+  for (guint i = 0, first = 0; i < count; i++) {
+    const bool last = all[i + 1].node != all[i].node || i + 1 == count;
+    graph->next[all[i].end] = all[last ? first : i + 1].end;
+    first = last ? i + 1 : first;
+  }
 }
 
 // Appends a cycle of edges without its edges on the axis as an outline, unless it has no area: it
@@ -252,18 +232,18 @@ static void add_outline(GPtrArray *outlines, const Graph *graph, const guint *cy
       first = cycle[(i + 1) % count] / 2 < graph->drawn ? i + 1 : first;
     }
   }
-  g_autoptr(GArray) chain = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) chain = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   double area = 0, length = 0;
   for (guint i = 0; i < count; i++) {
     const guint end = cycle[(first + i) % count];
-    const SbCadPiece piece = piece_from(graph, end);
+    const SbPiece piece = piece_from(graph, end);
     if (end / 2 < graph->drawn) {
-      area += area_of(&piece, piece_from(graph, cycle[0]).x0);
-      length += sb_cad_length(&piece);
+      area += sb_piece_area(&piece, piece_from(graph, cycle[0]).x0);
+      length += sb_piece_length(&piece);
       g_array_append_val(chain, piece);
     }
   }
-  if (fabs(area) > 2 * gap * length) {
+  if (fabs(area) > gap * length) {
     SbCadOutline *outline = g_new(SbCadOutline, 1);
     const guint own = cycle[first % count] / 2;
     *outline = (SbCadOutline){g_steal_pointer(&chain), closed,
@@ -278,9 +258,10 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
   const gsize most = 6 * (gsize)edges->len + 1; // ends, with those of edges on the axis
   g_autofree guint *node = g_new0(guint, most), *next = g_new0(guint, most);
   g_autofree guint *face = g_new0(guint, most), *place = g_new0(guint, most);
+  g_autofree guint *ends = g_new0(guint, most);
   g_autoptr(GArray) outer = g_array_new(FALSE, TRUE, sizeof(bool));
   g_autoptr(GArray) cycle = g_array_new(FALSE, FALSE, sizeof(guint));
-  Graph graph = {edges, edges->len, node, next};
+  Graph graph = {edges, edges->len, node, next, ends};
   join_ends(&graph, gap, alone);
   close_by_axis(&graph);
   turn_ends(&graph);
@@ -289,9 +270,9 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
     const guint own = outer->len;
     double area = 0;
     for (guint end = begin; face[end] == 0; end = next[end ^ 1U]) {
-      const SbCadPiece piece = piece_from(&graph, end);
+      const SbPiece piece = piece_from(&graph, end);
       face[end] = own;
-      area += area_of(&piece, piece_from(&graph, begin).x0);
+      area += sb_piece_area(&piece, piece_from(&graph, begin).x0);
     }
     if (face[begin] != own) {
       continue;
@@ -307,8 +288,8 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
       const guint at = place[node[end ^ 1U]];
       end = next[end ^ 1U];
       if (at > 0) {
-        const guint *ends = &g_array_index(cycle, guint, at - 1);
-        add_outline(outlines, &graph, ends, cycle->len - at + 1, gap);
+        const guint *loop = &g_array_index(cycle, guint, at - 1);
+        add_outline(outlines, &graph, loop, cycle->len - at + 1, gap);
         for (guint k = at - 1; k < cycle->len; k++) {
           place[node[g_array_index(cycle, guint, k)]] = 0;
         }
@@ -327,11 +308,10 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
 }
 
 void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, double same) {
-  g_autoptr(GArray) all = tidied(pieces, same);
-  g_autoptr(GArray) edges = g_array_new(FALSE, FALSE, sizeof(Drawn));
-  for (guint i = 0; i < all->len; i++) {
-    if (g_array_index(all, Drawn, i).times % 2 == 1) {
-      g_array_append_val(edges, g_array_index(all, Drawn, i));
+  g_autoptr(GArray) edges = tidied(pieces, same);
+  for (guint i = edges->len; i-- > 0;) {
+    if (g_array_index(edges, Drawn, i).times % 2 == 0) {
+      g_array_remove_index(edges, i);
     }
   }
   for (guint count = 0; count != edges->len;) {
@@ -352,7 +332,7 @@ void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double 
   g_autoptr(GArray) inner = add_boundary(half->outlines, half->alone, edges, gap);
   for (guint i = 0; i < inner->len; i++) {
     const Drawn *edge = &g_array_index(inner, Drawn, i);
-    const SbCadPiece *piece = &edge->piece;
+    const SbPiece *piece = &edge->piece;
     const bool sure = edge->times > 1 || (edge->inside[0] && edge->inside[1]) ||
                       (piece->bulge == 0 && fabs(piece->x1 - piece->x0) <= same);
     half->doubled -= edge->times - 1;

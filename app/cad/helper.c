@@ -2,26 +2,25 @@
 // output, by gmsh and its OpenCASCADE kernel. A program of its own: a kernel that crashes, hangs or
 // takes memory without end on a hostile file ends here, within the limits set below. Lengths in m,
 // the axis along x; each body cut by the half-plane at ANGLE [rad] about it. DX and PX: direction
-// and a point [m] of the axis; "nan": found.
-//
+// and a point [m] of the axis; "nan": found. The text:
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
-//   solid V cx cy cz Ixx Ixy Ixz Iyy Iyz Izz     volume, centre, moments about it at 1 kg/m3
+//   solid V V cx cy cz Ixx Ixy ... Izz     SbSolid: volume, mass, centre, moments at 1 kg/m3
 //   note TEXT                         a warning
 //   why TEXT                          instead of pieces
 //   piece x0 y0 x1 y1 bulge           of the half-section, in no order
 //   end
 #include "app/cad/cad_private.h"
 
+#include "engine/mechanism/vector3.h"
+
 #include <gmshc.h>
 #include <gsl/gsl_errno.h>
 #include <gsl/gsl_linalg.h>
 
-#include <math.h>
 #include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
-#include <string.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <time.h>
@@ -72,12 +71,12 @@ static void print_numbers(const char *word, const double *number, int count) {
 }
 
 // Moves the point to the one nearest to the origin; `oriented`: one sign of opposite directions.
-static void normalise(Axis *axis, bool oriented) {
+static void nearest_point(Axis *axis, bool oriented) {
   int largest = 0;
   for (int k = 1; k < 3; k++) {
     largest = fabs(axis->direction[k]) > fabs(axis->direction[largest]) + 1e-9 ? k : largest;
   }
-  const double along = sb_cad_dot(axis->point, axis->direction);
+  const double along = dot(axis->point, axis->direction);
   const double sign = oriented && axis->direction[largest] < 0 ? -1 : 1;
   for (int k = 0; k < 3; k++) {
     axis->point[k] -= along * axis->direction[k];
@@ -119,16 +118,15 @@ static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
   return good;
 }
 
-// Writes the direction of an axis, and its point nearest to the centre or the centre of a ball to
-// `p`, from the last `count` right singular vectors (columns of v[6][6], d and m of a line each).
-// Returns `count`, or 0 if they are no axis.
+// Writes the direction of an axis, and to `p` its point nearest to the centre or the centre of a
+// ball, from the last `count` columns of v[6][6] (d and m of a line). Returns `count`; 0: no axis.
 static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
   double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
   for (int j = 6 - count; j < 6; j++) {
     const double d[3] = {v[j], v[6 + j], v[12 + j]}, m[3] = {v[18 + j], v[24 + j], v[30 + j]};
-    const double square = sb_cad_dot(d, d);
+    const double square = dot(d, d);
     double turned[3];
-    sb_cad_cross(turned, d, m);
+    cross(turned, d, m);
     for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
       gram[k / 3][k % 3] += (k % 4 == 0) * square - d[k / 3] * d[k % 3];
     }
@@ -140,26 +138,25 @@ static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) 
     longest = fmax(longest, square);
   }
   if (count < 3) {
-    sb_cad_cross(p, axis->direction, moment);
+    cross(p, axis->direction, moment);
     // Without a rotation, an extruded face; with a pitch, a thread.
-    const bool turns = count == 2 || fabs(sb_cad_dot(axis->direction, moment)) < ZERO;
+    const bool turns = count == 2 || fabs(dot(axis->direction, moment)) < ZERO;
     return sqrt(longest) > ZERO && turns ? count : 0;
   }
   double det[3], across[3];
-  sb_cad_cross(det, gram[0], gram[1]);
-  const double whole = sb_cad_dot(det, gram[2]);
+  cross(det, gram[0], gram[1]);
+  const double whole = dot(det, gram[2]);
   for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
-    sb_cad_cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
-    p[k] = sb_cad_dot(across, sum) / whole;
+    cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
+    p[k] = dot(across, sum) / whole;
   }
   return whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
 }
 
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
 // the null space of this linear system (the line complex of the normals: H. Pottmann, J. Wallner,
-// Computational Line Geometry, Springer 2001, section 3.4): one dimension for a face of revolution,
-// two for a cylinder, three for a ball. Returns that number, with the centre of a ball as the
-// point; 0 for any other face, such as a plane.
+// Computational Line Geometry, Springer 2001, section 3.4). Returns its dimension: 1 for a face of
+// revolution, 2 for a cylinder, 3 for a ball (its centre is the point); 0 for others, as a plane.
 static int axis_of(Axis *axis, int tag) {
   double q[SAMPLES][3], n[SAMPLES][3], centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
   if (!sample(q, n, tag)) {
@@ -172,20 +169,19 @@ static int axis_of(Axis *axis, int tag) {
     for (int k = 0; k < 3; k++) {
       q[i][k] -= centre[k];
     }
-    size = fmax(size, sqrt(sb_cad_dot(q[i], q[i])));
+    size = fmax(size, sqrt(dot(q[i], q[i])));
   }
   for (int i = 0; i < SAMPLES; i++) {
-    sb_cad_cross(a + 6 * (size_t)i, q[i], n[i]);
+    cross(a + 6 * (size_t)i, q[i], n[i]);
     for (int k = 0; k < 3; k++) {
       a[6 * i + k] /= size;
       a[6 * i + 3 + k] = n[i][k];
     }
   }
-  gsl_matrix_view matrix = gsl_matrix_view_array(a, SAMPLES, 6),
-                  right = gsl_matrix_view_array(v, 6, 6);
+  gsl_matrix_view all = gsl_matrix_view_array(a, SAMPLES, 6), cols = gsl_matrix_view_array(v, 6, 6);
   gsl_vector_view values = gsl_vector_view_array(s, 6), work = gsl_vector_view_array(w, 6);
   if (!(size > 0) ||
-      gsl_linalg_SV_decomp(&matrix.matrix, &right.matrix, &values.vector, &work.vector) != 0) {
+      gsl_linalg_SV_decomp(&all.matrix, &cols.matrix, &values.vector, &work.vector) != 0) {
     return 0;
   }
   int count = 0;
@@ -206,8 +202,8 @@ static int axis_of(Axis *axis, int tag) {
 static double apart(const double a[3], const Axis *axis) {
   const double d[3] = {a[0] - axis->point[0], a[1] - axis->point[1], a[2] - axis->point[2]};
   double off[3];
-  sb_cad_cross(off, d, axis->direction);
-  return sqrt(sb_cad_dot(off, off));
+  cross(off, d, axis->direction);
+  return sqrt(dot(off, off));
 }
 
 // Adds the area of a face to those about its axis.
@@ -224,7 +220,7 @@ static void count_face(Axis *axes, int *count, int tag, const double wish[3]) {
     axis.direction[j] = isnan(wish[0]) ? j == 0 : wish[j];
   }
   while (k < *count && (axes[k].ball != axis.ball ||
-                        fabs(sb_cad_dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
+                        fabs(dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
                         apart(axis.point, &axes[k]) > SAME)) {
     k++;
   }
@@ -252,7 +248,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
   gmshFree(faces);
   *best = (Axis){.ball = true};
   for (int k = 0; k < found; k++) {
-    const bool fits = !directed || fabs(sb_cad_dot(axes[k].direction, direction)) >= 1 - PARALLEL;
+    const bool fits = !directed || fabs(dot(axes[k].direction, direction)) >= 1 - PARALLEL;
     const bool better = axes[k].ball == best->ball ? axes[k].area > best->area : best->ball;
     *best = fits && better ? axes[k] : *best;
   }
@@ -273,7 +269,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
   if (pointed) {
     memcpy(best->point, through, sizeof best->point);
   }
-  normalise(best, !directed);
+  nearest_point(best, !directed);
   return best->area > 0 || mass > 0;
 }
 
@@ -284,8 +280,8 @@ static void place(int *bodies, size_t count, const Axis *axis, double angle) {
   check(ierr, "the bodies cannot be moved");
   const double x[3] = {1, 0, 0};
   double by[3];
-  sb_cad_cross(by, axis->direction, x);
-  const double sine = sqrt(sb_cad_dot(by, by));
+  cross(by, axis->direction, x);
+  const double sine = sqrt(dot(by, by));
   if (sine > 1e-15) {
     gmshModelOccRotate(bodies, count, 0, 0, 0, by[0] / sine, by[1] / sine, by[2] / sine,
                        atan2(sine, axis->direction[0]), &ierr);
@@ -320,7 +316,7 @@ static bool print_edges(int face) {
   int of[2] = {2, face};
   gmshModelGetBoundary(of, 2, &edges, &count, 0, 0, 0, &ierr);
   bool good = ierr == 0;
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   for (size_t i = 0; good && i + 1 < count; i += 2) {
     Edge edge = {.tag = edges[i + 1]};
     double *low = NULL, *high = NULL;
@@ -343,7 +339,7 @@ static bool print_edges(int face) {
   written += pieces->len;
   good = good && written <= PIECES_MAX;
   for (guint i = 0; good && i < pieces->len; i++) {
-    const SbCadPiece *p = &g_array_index(pieces, SbCadPiece, i);
+    const SbPiece *p = &g_array_index(pieces, SbPiece, i);
     print_numbers("piece", (double[]){p->x0, p->y0, p->x1, p->y1, p->bulge}, 5);
   }
   gmshFree(edges);
@@ -359,11 +355,10 @@ static void print_section(int body) {
     fprintf(out, "why it has no extent\n");
     return;
   }
-  const double reach =
-      2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
+  const double size = 2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
   const double margin = 0.1 * (box[3] - box[0]) + 0.1;
   const int plane = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin,
-                                             reach + 1, -1, 0, &ierr);
+                                             size + 1, -1, 0, &ierr);
   int object[2] = {3, body}, tool[2] = {2, plane}, *faces = NULL, **map = NULL;
   size_t count = 0, *map_n = NULL, maps = 0;
   if (ierr == 0) {
@@ -409,13 +404,12 @@ static void print_body(int body, int number) {
   SbSolid solid;
   bool coarse;
   check(!sb_cad_measure(&solid, body, &coarse), "the kernel cannot measure a body");
-  double value[10] = {SCALE * SCALE * SCALE * solid.volume};
+  double value[14] = {pow(SCALE, 3) * solid.volume, pow(SCALE, 3) * solid.volume};
   for (int k = 0; k < 9; k++) {
-    static const int at[] = {4, 5, 6, 5, 7, 8, 6, 8, 9};
-    value[1 + k % 3] = SCALE * solid.centre[k % 3];
-    value[at[k]] = pow(SCALE, 5) * solid.inertia[k / 3][k % 3];
+    value[2 + k % 3] = SCALE * solid.centre[k % 3];
+    value[5 + k] = pow(SCALE, 5) * solid.inertia[k / 3][k % 3];
   }
-  print_numbers("solid", value, 10);
+  print_numbers("solid", value, 14);
   if (coarse) {
     fprintf(out, "note its volume and moments can be wrong by 1 %%: its spline faces could not be "
                  "measured accurately\n");

@@ -10,14 +10,12 @@
 
 #include <gmshc.h>
 
-#include <math.h>
 #include <sys/resource.h>
 #include <sys/time.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
-// Meshes of a body; facets of the first one on a full turn; processor time for a mesher, and for
-// all of a file [s].
+// Meshes of a body; facets of the first one on a turn; processor time of a mesher, of all [s].
 enum { MESHES = 3, FACETS = 8, SECONDS = 20, SECONDS_ALL = 60 };
 
 // Smallest facets that are tried, and largest, relative to the body's largest side; relative size

@@ -3,12 +3,7 @@
 // through a vertex that is farthest from the axis, where diameters are those of the vertices.
 #include "app/cad/cad_private.h"
 
-#include "app/base/error.h"
-#include "app/base/unit.h"
-#include "app/cad/stl.h"
-
-#include <math.h>
-#include <string.h>
+#include "engine/mechanism/vector3.h"
 
 // Sides that a valve's part may have [m]; how far the half-plane is from the vertex, so that no
 // vertex is on it [rad]; a piece that is none [m]; how much more volume another half-plane must
@@ -25,14 +20,13 @@ typedef struct {
   SbSolid solid;
 } Shell;
 
-// Returns the only unit in which `side`, the longest of the mesh, is that of a valve's part; NULL
-// with an error that names the plausible units.
+// Returns the only unit in which `side`, the longest one, is that of a valve's part; NULL: none.
 static const char *guess_unit(double side, GError **error) {
   static const char *const units[] = {"mm", "cm", "inch", "m", "um"};
   const char *found = NULL;
   guint count = 0;
   g_autoptr(GString) all = g_string_new(NULL), values = g_string_new(NULL);
-  g_autoptr(GString) others = g_string_new("that of a valve's part, 1 to 40 mm, in none: ");
+  g_autoptr(GString) others = g_string_new(NULL);
   for (size_t i = 0; i < G_N_ELEMENTS(units); i++) {
     double scale;
     if (!sb_unit_scale(&scale, units[i], "m", "mm", NULL)) {
@@ -40,9 +34,8 @@ static const char *guess_unit(double side, GError **error) {
     }
     const bool fits = side * scale >= SIDE_LEAST && side * scale <= SIDE_MOST;
     GString *list = fits ? all : others;
-    g_string_append_printf(list, "%s%.3g mm in %s",
-                           list->len > 0 && list->str[list->len - 1] != ' ' ? ", " : "",
-                           1e3 * side * scale, units[i]);
+    g_string_append_printf(list, "%s%.3g mm in %s", list->len > 0 ? ", " : "", 1e3 * side * scale,
+                           units[i]);
     if (fits) {
       g_string_append_printf(values, "%s%s", count++ > 0 ? "\n" : "", units[i]);
       found = units[i];
@@ -50,21 +43,19 @@ static const char *guess_unit(double side, GError **error) {
   }
   if (count != 1) {
     sb_app_error_choose(error, "unit", count > 0 ? values->str : NULL,
-                        "an STL file states no unit, and its longest side of %.4g is %s", side,
+                        "an STL file states no unit, and its longest side of %.4g is %s%s", side,
+                        count > 0 ? "" : "that of a valve's part, 1 to 40 mm, in none: ",
                         count > 0 ? all->str : others->str);
   }
   return count == 1 ? found : NULL;
 }
-
-// Shells ------------------------------------------------------------------------------------------
 
 static void shell_free(gpointer data) {
   g_array_unref(((Shell *)data)->triangles);
   g_free(data);
 }
 
-// Returns the bodies of the mesh in its order, each a connected part of it with its cavities; NULL
-// with an error if there are too many.
+// Returns the bodies of the mesh in its order, connected parts with their cavities; NULL: too many.
 static GPtrArray *find_bodies(const SbStl *stl, GError **error) {
   g_autoptr(GPtrArray) shells = g_ptr_array_new_with_free_func(shell_free);
   g_autofree Shell **shell_of = g_new0(Shell *, stl->triangle_count + 1);
@@ -99,8 +90,6 @@ static bool measure(const SbStl *stl, const GPtrArray *shells, GError **error) {
   return true;
 }
 
-// The axis ----------------------------------------------------------------------------------------
-
 // Writes the axis about which the bodies are closest to bodies of revolution.
 static void find_mesh_axis(double axis[3], const GPtrArray *shells) {
   double sum[3][3] = {{0}};
@@ -111,8 +100,7 @@ static void find_mesh_axis(double axis[3], const GPtrArray *shells) {
   sb_solid_axis(axis, (const double(*)[3])sum);
 }
 
-// Three unit vectors at right angles, the first along `axis`; of a coordinate axis, the others are
-// the next two coordinate axes.
+// Unit vectors at right angles, the first along `axis`; of a coordinate axis, the next two follow.
 static void frame_of(double frame[3][3], const double axis[3]) {
   const double length = hypot(hypot(axis[0], axis[1]), axis[2]);
   int main = 0;
@@ -125,27 +113,18 @@ static void frame_of(double frame[3][3], const double axis[3]) {
   for (int k = 0; k < 3; k++) {
     frame[1][k] = ((k == next) - off * frame[0][k]) / norm;
   }
-  sb_cad_cross(frame[2], frame[0], frame[1]);
+  cross(frame[2], frame[0], frame[1]);
 }
 
-static void turn_point(double point[3], const double frame[3][3]) {
-  const double old[3] = {point[0], point[1], point[2]};
-  for (int k = 0; k < 3; k++) {
-    point[k] = sb_cad_dot(frame[k], old);
-  }
-}
-
-// Turns and moves the mesh so that the axis is x. `through`: NULL, the middle of the box, unless
-// the axis is as good as there.
+// Makes the axis of the mesh x. `through` NULL: the middle of the box, unless the axis is near it.
 static void place(SbStl *stl, const double frame[3][3], const double *through) {
   double low[3], high[3], to[3] = {0};
   for (gsize i = 0; i < stl->vertex_count; i++) {
-    turn_point(stl->vertices + 3 * i, frame);
+    turn(stl->vertices + 3 * i, frame[0], stl->vertices + 3 * i);
   }
   sb_stl_extent(stl->vertices, stl->vertex_count, low, high);
   if (through != NULL) {
-    memcpy(to, through, sizeof to);
-    turn_point(to, frame);
+    turn(to, frame[0], through);
   } else {
     for (int k = 1; k < 3; k++) {
       const double middle = 0.5 * (low[k] + high[k]);
@@ -158,10 +137,8 @@ static void place(SbStl *stl, const double frame[3][3], const double *through) {
   }
 }
 
-// The section -------------------------------------------------------------------------------------
-
 // Where an edge crosses the plane; from its lower vertex on, so that both facets find the same.
-static void cross(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c, double s) {
+static void pierce(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c, double s) {
   const double *p = stl->vertices + 3 * (gsize)MIN(a, b);
   const double *q = stl->vertices + 3 * (gsize)MAX(a, b);
   const double off = p[2] * c - p[1] * s;
@@ -174,7 +151,7 @@ static void cross(double xu[2], const SbStl *stl, unsigned a, unsigned b, double
 // Cuts the facets of a body by the half-plane at `angle`.
 static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
   const double c = cos(angle), s = sin(angle);
-  GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   for (guint i = 0; i < shell->triangles->len; i++) {
     const unsigned *corner = (const unsigned *)(void *)shell->triangles->data + 3 * (gsize)i;
     double at[2][2];
@@ -186,19 +163,17 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
     }
     for (int k = 0; k < 3 && found < 2; k++) {
       if (behind[k] != behind[(k + 1) % 3]) {
-        cross(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
+        pierce(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {
-      const SbCadPiece piece = {at[0][0], at[0][1], at[1][0], at[1][1], 0};
-      g_array_append_val(pieces, piece);
+      g_array_append_vals(pieces, &(SbPiece){at[0][0], at[0][1], at[1][0], at[1][1], 0}, 1);
     }
   }
   return pieces;
 }
 
-// Angles of the vertices farthest from the axis, of the sector where it is farthest first; not a
-// number where a sector has none.
+// Angles of the farthest vertex of each sector, first of the farthest of all; NaN: it has none.
 static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell) {
   double most[SECTORS] = {0};
   int first = 0;
@@ -221,34 +196,33 @@ static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell
   angle[first] = swap;
 }
 
+static SbCadBody *add_section(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
+                              double angle) {
+  SbCadBody *body = sb_cad_body_new(name);
+  g_autoptr(GArray) pieces = cut(stl, shell, angle);
+  g_ptr_array_add(cad->bodies, body);
+  sb_cad_section(cad, body, pieces);
+  return body;
+}
+
 // Adds a body with its half-section: without a chosen angle at the first of the farthest vertices,
 // or where the half-plane meets clearly more of the body, as next to ports.
 static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
                      const SbCadChoices *choices) {
-  double angle[SECTORS];
+  double angle[SECTORS], best = 0; // volume of the best half-section, revolved
   farthest(angle, stl, shell);
-  angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
-  g_autoptr(SbCad) chosen = NULL;
-  double best = 0; // volume of the chosen half-section, revolved
-  for (int k = 0; k < (choices->angle == NULL ? SECTORS : 1); k++) {
-    if (k > 0 && (isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
-      continue;
+  double at = angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
+  for (int k = 0; choices->angle == NULL && k < SECTORS; k++) {
+    if (k == 0 || !(isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
+      g_autoptr(SbCad) tried = sb_cad_new("");
+      const double volume = add_section(tried, stl, shell, name, angle[k])->revolved.volume;
+      at = volume > (1 + MORE) * best ? angle[k] : at;
+      best = volume > (1 + MORE) * best ? volume : best;
     }
-    SbCad *tried = sb_cad_new("");
-    SbCadBody *half = sb_cad_body_new(name);
-    g_autoptr(GArray) pieces = cut(stl, shell, angle[k]);
-    g_ptr_array_add(tried->bodies, half);
-    sb_cad_section(tried, half, pieces);
-    const bool more = k == 0 || half->revolved.volume > (1 + MORE) * best;
-    best = more ? half->revolved.volume : best;
-    sb_cad_free(more ? chosen : tried);
-    chosen = more ? tried : chosen;
   }
-  SbCadBody *body = g_ptr_array_steal_index(chosen->bodies, 0);
-  g_ptr_array_extend_and_steal(cad->warnings, g_ptr_array_ref(chosen->warnings));
+  SbCadBody *body = add_section(cad, stl, shell, name, at);
   body->measured = true;
   body->solid = shell->solid;
-  g_ptr_array_add(cad->bodies, body);
 }
 
 // From the mesh in the file's own numbers.
@@ -287,9 +261,9 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     sb_note_add(cad->warnings, "%zu facets were inside out and are turned", stl->turned);
   }
   g_autofree char *name = g_path_get_basename(path);
-  char *dot = strrchr(name, '.');
-  if (dot != NULL && dot > name) {
-    *dot = '\0';
+  char *ending = strrchr(name, '.');
+  if (ending != NULL && ending > name) {
+    *ending = '\0';
   }
   for (guint i = 0; i < shells->len; i++) {
     g_autofree char *own = i > 0 ? g_strdup_printf("%s %u", name, i + 1) : g_strdup(name);

@@ -1,41 +1,33 @@
 // Pieces joined to outlines, and outlines made half-sections about the line y = 0.
-#include "app/base/number.h"
 #include "app/cad/cad_private.h"
-#include "app/cad/profile.h"
 
-#include <math.h>
-#include <string.h>
-
-// The largest distance between pieces that are drawn twice; of a circle from the pieces that follow
-// it, and of a line; ends that are one point where a body is cut; difference of halves that is
-// reported [m].
-static const double DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT_GAP = 1e-8,
-                    HALVES = 2e-6;
+// Largest distances [m]: of pieces that are drawn twice; of pieces that continue a circle, a line;
+// of ends that are one point where a body is cut; of halves without a warning.
+static const double DOUBLED = 1e-6, CONTINUED = 1e-9, STRAIGHT = 1e-8, CUT = 1e-8, HALVES = 2e-6;
 
 // Returns whether the pieces follow one another from end to end, back to the first.
 static bool closes(const GArray *chain, double gap) {
   double length = 0;
   bool good = true;
   for (guint i = 0; good && i < chain->len; i++) {
-    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
-    const SbCadPiece *next = &g_array_index(chain, SbCadPiece, (i + 1) % chain->len);
+    const SbPiece *piece = &g_array_index(chain, SbPiece, i);
+    const SbPiece *next = &g_array_index(chain, SbPiece, (i + 1) % chain->len);
     good = hypot(next->x0 - piece->x1, next->y0 - piece->y1) <= gap;
-    length += sb_cad_length(piece);
+    length += sb_piece_length(piece);
   }
   return good && length > 2 * gap;
 }
 
-// Returns the largest distance of an end or a middle of the pieces `of` from the nearest one of
-// `from`.
+// Returns the largest distance of ends and middles of the pieces `of` from the nearest of `from`.
 static double deviation(const GArray *of, const GArray *from) {
   double largest = 0;
   for (guint i = 0; i < 2 * of->len; i++) {
     double at[2], nearest = INFINITY;
-    sb_cad_point(&g_array_index(of, SbCadPiece, i / 2), i % 2 / 2.0, at);
+    sb_piece_point(&g_array_index(of, SbPiece, i / 2), i % 2 / 2.0, at);
     for (guint k = 0; nearest > largest && k < from->len; k++) {
-      const SbCadPiece *piece = &g_array_index(from, SbCadPiece, k);
+      const SbPiece *piece = &g_array_index(from, SbPiece, k);
       double off;
-      const double place = sb_cad_place(piece, at[0], at[1], &off);
+      const double place = sb_piece_place(piece, at[0], at[1], &off);
       off = place >= 0 && place <= 1 ? off
                                      : fmin(hypot(at[0] - piece->x0, at[1] - piece->y0),
                                             hypot(at[0] - piece->x1, at[1] - piece->y1));
@@ -47,9 +39,9 @@ static double deviation(const GArray *of, const GArray *from) {
 }
 
 // Appends the parts of `piece` above the axis; ends on it have y = 0 exactly.
-static void clip(GArray *out, SbCadPiece piece, double gap) {
+static void clip(GArray *out, SbPiece piece, double gap) {
   // A circle that touches the axis within the gap does not cross it.
-  const SbArc circle = piece.bulge != 0 ? sb_cad_circle(&piece) : (SbArc){0};
+  const SbArc circle = piece.bulge != 0 ? sb_piece_arc(&piece) : (SbArc){0};
   const double dip = circle.radius - circle.centre[1], up = dip > 0 && dip <= gap ? dip : 0;
   piece.y0 = fabs(piece.y0 + up) <= gap ? 0 : piece.y0 + up;
   piece.y1 = fabs(piece.y1 + up) <= gap ? 0 : piece.y1 + up;
@@ -58,11 +50,11 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   if (piece.bulge == 0 && piece.y0 * piece.y1 < 0) {
     at[cuts++] = piece.y0 / (piece.y0 - piece.y1);
   } else if (piece.bulge != 0) {
-    const SbArc arc = sb_cad_circle(&piece);
+    const SbArc arc = sb_piece_arc(&piece);
     const double half = up > 0 ? 0 : sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
     for (int side = -1; side <= 1 && half > 0; side += 2) {
       double off;
-      const double part = sb_cad_place(&piece, arc.centre[0] + side * half, 0, &off);
+      const double part = sb_piece_place(&piece, arc.centre[0] + side * half, 0, &off);
       if (part > 1e-9 && part < 1 - 1e-9) {
         at[cuts++] = part;
       }
@@ -76,7 +68,7 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
   for (int i = 1; i <= cuts; i++) {
     double to[2] = {piece.x1, piece.y1}, high = 0, place[2];
     for (int k = 1; k <= 4; k++) { // its middle may touch the axis
-      sb_cad_point(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
+      sb_piece_point(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
       high = k < 4 ? fmax(high, place[1]) : high;
     }
     if (i < cuts) {
@@ -84,35 +76,35 @@ static void clip(GArray *out, SbCadPiece piece, double gap) {
       to[1] = 0;
     }
     if (high > gap) {
-      const SbCadPiece kept = {from[0], from[1], to[0], to[1],
-                               tan(atan(piece.bulge) * (at[i] - at[i - 1]))};
-      g_array_append_val(out, kept);
+      g_array_append_vals(
+          out,
+          &(SbPiece){from[0], from[1], to[0], to[1], tan(atan(piece.bulge) * (at[i] - at[i - 1]))},
+          1);
     }
     memcpy(from, to, sizeof from);
   }
 }
 
-// Joins runs of pieces of one line or one circle, in place; if `within` is above 0, of any that are
-// as close to an arc [m].
+// Joins runs of pieces of one line or circle in place; `within` > 0: of any so close to an arc [m].
 static void simplify(GArray *chain, double within) {
   g_autoptr(GArray) all = g_array_copy(chain);
   guint kept = 0, first = 0; // first: of the pieces of `all` that the last one kept consists of
   for (guint i = 1; i < all->len; i++) {
-    const SbCadPiece *piece = &g_array_index(all, SbCadPiece, 0);
-    const SbCadPiece *from = &piece[first], *to = &piece[i];
+    const SbPiece *piece = &g_array_index(all, SbPiece, 0);
+    const SbPiece *from = &piece[first], *to = &piece[i];
     const double begin[2] = {from->x0, from->y0}, end[2] = {to->x1, to->y1};
     double middle[2];
-    sb_cad_point(&piece[(first + i + 1) / 2], 0, middle);
+    sb_piece_point(&piece[(first + i + 1) / 2], 0, middle);
     const bool line = within == 0 && from->bulge == 0 && to->bulge == 0;
-    SbCadPiece one = sb_cad_arc(begin, middle, end);
+    SbPiece one = sb_cad_arc(begin, middle, end);
     one.bulge = line ? 0 : one.bulge;
     const double least = within > 0 ? within : line ? STRAIGHT : CONTINUED;
     if ((line || within > 0 || from->bulge * to->bulge > 0) && fabs(one.bulge) < 1 &&
         (one.x0 != one.x1 || one.y0 != one.y1) &&
         deviation(&(GArray){(gchar *)from, i + 1 - first}, &(GArray){(gchar *)&one, 1}) <= least) {
-      g_array_index(chain, SbCadPiece, kept) = one;
+      g_array_index(chain, SbPiece, kept) = one;
     } else {
-      g_array_index(chain, SbCadPiece, ++kept) = *to;
+      g_array_index(chain, SbPiece, ++kept) = *to;
       first = i;
     }
   }
@@ -122,16 +114,15 @@ static void simplify(GArray *chain, double within) {
 // Fills the body's profile from a chain, which it simplifies; `why` where that is none.
 static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
   g_autoptr(GArray) drawn = g_array_copy(chain);
-  for (int pass = 0; pass < 1 + closed; pass++) { // again from another piece, whose end is a corner
-    const SbCadPiece first = g_array_index(chain, SbCadPiece, 0);
+  for (int pass = 0; pass < 1 + closed; pass++) { // again from another p, whose end is a corner
+    const SbPiece first = g_array_index(chain, SbPiece, 0);
     g_array_remove_index(chain, 0);
     g_array_insert_val(chain, pass == 0 ? 0 : chain->len, first);
     simplify(chain, 0);
   }
   if (chain->len + 1 > SB_PROFILE_MAX) {
-    g_array_set_size(chain, 0);
-    g_array_append_vals(chain, drawn->data, drawn->len);
-    simplify(chain, SB_CAD_TOLERANCE);
+    simplify(drawn, SB_CAD_TOLERANCE);
+    chain = drawn;
   }
   if (chain->len + 1 > SB_PROFILE_MAX) {
     body->why = g_strdup_printf("its half-section has %u pieces, more than %d", chain->len,
@@ -139,14 +130,12 @@ static void to_profile(SbCadBody *body, GArray *chain, bool closed) {
     return;
   }
   for (guint i = 0; i < chain->len; i++) {
-    const SbCadPiece *piece = &g_array_index(chain, SbCadPiece, i);
-    const SbProfilePoint point = {piece->x0, fmax(piece->y0, 0), piece->bulge};
-    g_array_append_val(body->profile, point);
+    const SbPiece *p = &g_array_index(chain, SbPiece, i);
+    g_array_append_vals(body->profile, &(SbProfilePoint){p->x0, fmax(p->y0, 0), p->bulge}, 1);
   }
   if (!closed) {
-    const SbCadPiece *last = &g_array_index(chain, SbCadPiece, chain->len - 1);
-    const SbProfilePoint point = {last->x1, 0, 0};
-    g_array_append_val(body->profile, point);
+    const SbPiece *last = &g_array_index(chain, SbPiece, chain->len - 1);
+    g_array_append_vals(body->profile, &(SbProfilePoint){last->x1, 0, 0}, 1);
   }
   body->closed = closed;
 }
@@ -156,12 +145,10 @@ static void outline_free(gpointer data) {
   g_free(data);
 }
 
-// ---- Bodies ----
-
 // Warns about the ends of open chains: the largest distance from an end to the axis or the nearest
 // other one is what `join` would have to bridge.
 static void note_open(SbCad *cad, const char *name, const GArray *ends) {
-  const SbCadPiece *at = (const SbCadPiece *)(void *)ends->data;
+  const SbPiece *at = (const SbPiece *)(void *)ends->data;
   double largest = 0; // squared
   for (guint i = 0; i < ends->len; i++) {
     double nearest = at[i].y0 * at[i].y0;
@@ -178,7 +165,7 @@ static void note_open(SbCad *cad, const char *name, const GArray *ends) {
               sb_number_round(gap, 1e3 * sqrt(largest), 3));
 }
 
-// Returns whether an outline is one of `others` (of GArray of SbCadPiece).
+// Returns whether an outline is one of `others` (of GArray of SbPiece).
 static bool is_known(const GPtrArray *others, const GArray *chain, double same) {
   bool known = false;
   for (guint i = 0; !known && i < others->len; i++) {
@@ -188,22 +175,21 @@ static bool is_known(const GPtrArray *others, const GArray *chain, double same) 
   return known;
 }
 
-// Finds the outlines of the entities (of GArray of SbCadPiece) above the axis, or below it and
-// mirrored (`side` -1).
+// Finds the outlines of entities (of GArray of SbPiece) above the axis; `side` -1: below, mirrored.
 static void read_half(SbCadLines *half, const GPtrArray *entities, int side, double gap) {
   const double same = fmin(gap, DOUBLED);
-  g_autoptr(GArray) closed = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  g_autoptr(GArray) open = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  g_autoptr(GArray) closed = g_array_new(FALSE, FALSE, sizeof(SbPiece));
+  g_autoptr(GArray) open = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   g_autoptr(GPtrArray) known = g_ptr_array_new_with_free_func((GDestroyNotify)g_array_unref);
   half->outlines = g_ptr_array_new_with_free_func(outline_free);
-  half->pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
-  half->alone = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+  half->pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
+  half->alone = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   for (guint i = 0; i < entities->len; i++) {
     const GArray *entity = entities->pdata[i];
-    g_autoptr(GArray) above = g_array_new(FALSE, FALSE, sizeof(SbCadPiece));
+    g_autoptr(GArray) above = g_array_new(FALSE, FALSE, sizeof(SbPiece));
     for (guint k = 0; k < entity->len; k++) {
-      const SbCadPiece p = g_array_index(entity, SbCadPiece, k);
-      clip(above, (SbCadPiece){p.x0, side * p.y0, p.x1, side * p.y1, side * p.bulge}, gap);
+      const SbPiece p = g_array_index(entity, SbPiece, k);
+      clip(above, (SbPiece){p.x0, side * p.y0, p.x1, side * p.y1, side * p.bulge}, gap);
     }
     const bool own = closes(entity, gap);
     if (own && above->len > 0 && is_known(known, above, same)) {
@@ -308,7 +294,7 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
   const SbCadBody *best = NULL;
   guint count = 0;
   const gpointer all[] = {(gpointer)pieces};
-  sb_cad_outlines(found, &(GPtrArray){(gpointer *)all, 1}, body->name, CUT_GAP);
+  sb_cad_outlines(found, &(GPtrArray){(gpointer *)all, 1}, body->name, CUT);
   sb_cad_settle(found, &none);
   for (guint i = 0; i < found->bodies->len; i++) {
     const SbCadBody *one = found->bodies->pdata[i];

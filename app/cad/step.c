@@ -2,14 +2,9 @@
 // on the clock has no influence: a loaded machine reads what an idle one reads.
 #include "app/cad/cad_private.h"
 
-#include "app/base/error.h"
-#include "app/base/number.h"
-
 #include <gio/gio.h>
 
-#include <math.h>
 #include <signal.h>
-#include <string.h>
 
 enum { TEXT_MAX = 64 << 20 };
 
@@ -90,11 +85,11 @@ static bool read_numbers(double *out, int count, const char *text) {
 // Fills `cad` from the helper's lines; false where they are not complete.
 static bool take_text(SbCad *cad, char *text, GError **error) {
   g_auto(GStrv) lines = g_strsplit(text, "\n", -1);
-  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbCadPiece)); // of `body`
+  g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece)); // of `body`
   SbCadBody *body = NULL;
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
-    double n[10];
+    double n[sizeof(SbSolid) / sizeof(double)];
     if (strcmp(line, "error axis") == 0) {
       return sb_app_error_choose(error, "axis", "x\ny\nz", "has no face of revolution, so no axis");
     }
@@ -115,19 +110,16 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
       g_autofree char *name = sb_printable(line + 5, strlen(line + 5));
       body = sb_cad_body_new(name);
       g_ptr_array_add(cad->bodies, body);
-    } else if (body != NULL && g_str_has_prefix(line, "solid ") && read_numbers(n, 10, line + 6)) {
+    } else if (body != NULL && g_str_has_prefix(line, "solid ") &&
+               read_numbers(n, G_N_ELEMENTS(n), line + 6)) {
       body->measured = true;
-      body->solid = (SbSolid){n[0],
-                              n[0],
-                              {n[1], n[2], n[3]},
-                              {{n[4], n[5], n[6]}, {n[5], n[7], n[8]}, {n[6], n[8], n[9]}}};
+      memcpy(&body->solid, n, sizeof n);
     } else if (body != NULL && g_str_has_prefix(line, "note ")) {
       sb_note_add(cad->warnings, "%s: %s", body->name, line + 5);
     } else if (body != NULL && g_str_has_prefix(line, "why ") && body->why == NULL) {
       body->why = sb_printable(line + 4, strlen(line + 4));
     } else if (g_str_has_prefix(line, "piece ") && read_numbers(n, 5, line + 6)) {
-      const SbCadPiece piece = {n[0], n[1], n[2], n[3], n[4]};
-      g_array_append_val(pieces, piece);
+      g_array_append_vals(pieces, &(SbPiece){n[0], n[1], n[2], n[3], n[4]}, 1);
     }
   }
   return sb_app_error_input(error,

@@ -1,20 +1,12 @@
-// See stl.h.
-#include "app/cad/stl.h"
-
+// STL files; see cad.h.
 #include "app/base/bytes.h"
 #include "app/base/reader.h"
-#include "app/base/unit.h"
 #include "app/cad/cad_private.h"
-
-#include <math.h>
-#include <string.h>
 
 enum { HEADER = 84, RECORD = 50 };
 
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
-static const size_t length_max = (size_t)SB_STL_TRIANGLES_MAX * 512;
-
-// ---- welding ----
+static const size_t LONGEST = (size_t)SB_STL_TRIANGLES_MAX * 512;
 
 // Part of the box's diagonal within which corners are one: what six digits of text leave open.
 static const double WELD = 1e-5;
@@ -22,42 +14,36 @@ static const double WELD = 1e-5;
 // Part of the largest coordinate, for a part far from its origin: two units of single precision.
 static const double WELD_SINGLE = 0x1p-22;
 
-// Cells of a grid, hashed: a bucket heads a chain of the vertices in its cells.
-typedef struct {
-  unsigned *head, *next; // vertex + 1, 0 ends
-  guint64 mask;
-  double cell;
-} Grid;
-
-static unsigned *bucket(const Grid *grid, const gint64 at[3]) {
+// Returns the key of a cell of a grid; several cells may have one.
+static gpointer key_of(const gint64 at[3]) {
   guint64 hash = 0;
   for (int k = 0; k < 3; k++) {
     hash = (hash ^ (guint64)at[k]) * 0x9e3779b97f4a7c15u;
     hash ^= hash >> 32;
   }
-  return &grid->head[hash & grid->mask];
+  return GSIZE_TO_POINTER(hash);
 }
 
 // The first vertex within `tolerance` of `x` along every axis, or `count`. The first, so that equal
-// corners are always the same vertex.
-static unsigned nearest(const Grid *grid, const double *vertices, unsigned count, const double *x,
-                        double tolerance) {
-  gint64 low[3], high[3], at[3];
-  for (int k = 0; k < 3; k++) {
-    low[k] = (gint64)floor((x[k] - tolerance) / grid->cell);
-    high[k] = (gint64)floor((x[k] + tolerance) / grid->cell);
-  }
+// corners are always the same vertex. `grid`: key of a cell -> number of its last vertex, from 1;
+// next[vertex]: the one before in the cell, 0: none.
+static unsigned nearest(GHashTable *grid, const unsigned *next, double cell, const double *vertices,
+                        unsigned count, const double *x, double tolerance) {
   unsigned best = count;
-  for (at[0] = low[0]; at[0] <= high[0]; at[0]++) {
-    for (at[1] = low[1]; at[1] <= high[1]; at[1]++) {
-      for (at[2] = low[2]; at[2] <= high[2]; at[2]++) {
-        for (unsigned v = *bucket(grid, at); v != 0; v = grid->next[v - 1]) {
-          const double *y = vertices + 3 * (size_t)(v - 1);
-          if (v - 1 < best && fabs(y[0] - x[0]) <= tolerance && fabs(y[1] - x[1]) <= tolerance &&
-              fabs(y[2] - x[2]) <= tolerance) {
-            best = v - 1;
-          }
-        }
+  for (int corner = 0; corner < 8; corner++) {
+    gint64 at[3];
+    bool twice = false; // the same cell as of another corner
+    for (int k = 0; k < 3; k++) {
+      const double low = floor((x[k] - tolerance) / cell), high = floor((x[k] + tolerance) / cell);
+      at[k] = (gint64)(corner >> k & 1 ? high : low);
+      twice |= (corner >> k & 1) != 0 && high == low;
+    }
+    unsigned v = twice ? 0 : GPOINTER_TO_UINT(g_hash_table_lookup(grid, key_of(at)));
+    for (; v != 0; v = next[v - 1]) {
+      const double *y = vertices + 3 * (size_t)(v - 1);
+      if (v - 1 < best && fabs(y[0] - x[0]) <= tolerance && fabs(y[1] - x[1]) <= tolerance &&
+          fabs(y[2] - x[2]) <= tolerance) {
+        best = v - 1;
       }
     }
   }
@@ -86,30 +72,25 @@ static double weld_tolerance(const double *corners, gsize count) {
 }
 
 // Corners closer than the tolerance become one vertex, triangles that lose a corner by that are
-// dropped. Vertices are further apart than the tolerance, so that a cell of four holds few, and the
-// time grows with the count alone.
+// dropped. Vertices are further apart, so that a cell of four tolerances holds few: linear time.
 static void weld(SbStl *out, const double *corners, gsize triangles, double tolerance) {
-  gsize count = 3 * triangles, buckets = 2;
-  while (buckets < 2 * count) {
-    buckets *= 2;
-  }
-  Grid grid = {g_new0(unsigned, buckets), g_new(unsigned, count), buckets - 1,
-               tolerance > 0.0 ? 4.0 * tolerance : 1.0};
+  const gsize count = 3 * triangles;
+  const double cell = tolerance > 0.0 ? 4.0 * tolerance : 1.0;
+  g_autoptr(GHashTable) grid = g_hash_table_new(g_direct_hash, g_direct_equal);
+  g_autofree unsigned *next = g_new(unsigned, count);
   out->vertices = g_new(double, 3 * count);
   out->triangles = g_new(unsigned, count);
   for (gsize t = 0; t < triangles; t++) {
     unsigned v[3];
     for (gsize k = 0; k < 3; k++) {
       const double *x = corners + 9 * t + 3 * k;
-      v[k] = nearest(&grid, out->vertices, (unsigned)out->vertex_count, x, tolerance);
-      if (v[k] == out->vertex_count) {
-        gint64 at[3];
-        for (int j = 0; j < 3; j++) {
-          at[j] = (gint64)floor(x[j] / grid.cell);
-        }
-        unsigned *head = bucket(&grid, at);
-        grid.next[v[k]] = *head;
-        *head = v[k] + 1;
+      const unsigned vertices = (unsigned)out->vertex_count;
+      v[k] = nearest(grid, next, cell, out->vertices, vertices, x, tolerance);
+      if (v[k] == vertices) {
+        const gint64 at[3] = {(gint64)floor(x[0] / cell), (gint64)floor(x[1] / cell),
+                              (gint64)floor(x[2] / cell)};
+        next[vertices] = GPOINTER_TO_UINT(g_hash_table_lookup(grid, key_of(at)));
+        g_hash_table_insert(grid, key_of(at), GUINT_TO_POINTER(vertices + 1));
         memcpy(out->vertices + 3 * out->vertex_count++, x, 3 * sizeof *x);
       }
     }
@@ -119,11 +100,7 @@ static void weld(SbStl *out, const double *corners, gsize triangles, double tole
       memcpy(out->triangles + 3 * out->triangle_count++, v, sizeof v);
     }
   }
-  g_free(grid.head);
-  g_free(grid.next);
 }
-
-// ---- binary ----
 
 // Whether the length of a file fits the number of triangles in a binary header; a few bytes behind
 // them are ignored. Binary files may start with "solid" too.
@@ -140,15 +117,12 @@ static bool read_binary(GArray *corners, const char *data, gsize length, GError 
     // 12 bytes of normal come first; the corners' order gives it again.
     const double number = sb_bytes_float(data + HEADER + RECORD * (i / 9) + 12 + 4 * (i % 9));
     if (!isfinite(number)) {
-      return sb_app_error_input(
-          error, "triangle %" G_GSIZE_FORMAT " has a corner that is not a number", i / 9);
+      return sb_app_error_input(error, "triangle %zu has a corner that is not a number", i / 9);
     }
     g_array_append_val(corners, number);
   }
   return true;
 }
-
-// ---- text ----
 
 typedef struct {
   const char *at, *end;
@@ -220,8 +194,7 @@ bool sb_cad_is_stl(const char *data, gsize length) {
 
 static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize length, GError **error) {
   if (!sb_cad_is_stl(data, length)) {
-    return sb_app_error_input(error, "not an STL file, or cut short (%" G_GSIZE_FORMAT " bytes)",
-                              length);
+    return sb_app_error_input(error, "not an STL file, or cut short (%zu bytes)", length);
   }
   out->text = !is_binary(data, length);
   if (!(out->text ? read_text : read_binary)(corners, data, length, error)) {
@@ -260,8 +233,7 @@ gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *un
 gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error) {
   *out = (SbStl){0};
   gsize length = 0;
-  g_autofree char *data =
-      sb_reader_load_file(&length, path, path, length_max, SB_APP_ERROR_IO, error);
+  g_autofree char *data = sb_reader_load_file(&length, path, path, LONGEST, SB_APP_ERROR_IO, error);
   return data != NULL && sb_stl_parse(out, data, length, unit, path, error);
 }
 

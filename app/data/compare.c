@@ -1,12 +1,8 @@
-// Measured less computed; see the header.
+// Measured less computed, and the measured rows for that; see compare.h and measured.h.
 #include "app/data/compare.h"
 
 #include "app/base/figure_text.h"
-
-#include <math.h>
-#include <string.h>
-
-// ---- The run's loop ----
+#include "app/data/measured_private.h"
 
 static void add(SbLoop *loop, int way, double displacement, double force) {
   size_t *count = &loop->count[way];
@@ -73,7 +69,65 @@ double sb_loop_force(const SbLoop *loop, int way, double displacement) {
   return force[low] + t * (force[high] - force[low]);
 }
 
-// ---- Differences ----
+// Whether the stem slides, and in which way. If it jams on the return, it rests at the cycle's end.
+static bool slides(int *way, const SbMeasured *m, const SbMeasuredCycle *cycle, size_t row) {
+  const double s = m->displacement[row], stroke = m->displacement[cycle->turn];
+  const double margin = 0.01 * stroke;
+  *way = row >= cycle->turn;
+  const double rest = *way ? fmax(m->displacement[cycle->end - 1], 0) : 0;
+  const SbMeasuredStage *end = &m->stage[*way ? SB_STAGE_E : SB_STAGE_D];
+  return s > rest + margin && s < (end->found ? end->displacement : stroke) - margin;
+}
+
+SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t count_max) {
+  int way;
+  const size_t rows = sb_measured_cycle(m, m->last)->end - sb_measured_cycle(m, m->first)->begin;
+  const size_t each = rows / MAX(count_max, 1) + (rows % MAX(count_max, 1) != 0);
+  SbMeasuredPoint *out = g_new(SbMeasuredPoint, rows / MAX(each, 1) + 2 * (m->last - m->first) + 4);
+  SbMeasuredPoint sum = {0};
+  *count = 0;
+  for (size_t c = m->first; c <= m->last; c++) {
+    const SbMeasuredCycle *cycle = sb_measured_cycle(m, c);
+    for (size_t i = cycle->begin; i <= cycle->end; i++) {
+      const bool takes = i < cycle->end && slides(&way, m, cycle, i);
+      // A mean ends with its rows, its stroke or its cycle.
+      if (sum.weight > 0 &&
+          (sum.weight >= (double)each || i == cycle->end || (takes && way != sum.way))) {
+        out[(*count)++] = (SbMeasuredPoint){sum.displacement / sum.weight, sum.force / sum.weight,
+                                            sum.weight, sum.way};
+        sum = (SbMeasuredPoint){0};
+      }
+      if (takes) {
+        sum.displacement += m->displacement[i];
+        sum.force += m->force[i];
+        sum.weight++;
+        sum.way = way;
+      }
+    }
+  }
+  return out;
+}
+
+void sb_measured_band(SbMeasuredBand *out, const SbMeasured *m) {
+  out->end = 0;
+  for (size_t c = m->first; c <= m->last; c++) {
+    out->end = fmax(out->end, m->displacement[sb_measured_cycle(m, c)->turn] * (1 + 1e-9));
+  }
+  for (int i = 0; i < 4 * SB_MEASURED_BAND; i++) {
+    out->force[i / 2 / SB_MEASURED_BAND][i / 2 % SB_MEASURED_BAND][i % 2] = NAN;
+  }
+  for (size_t c = m->first; c <= m->last; c++) {
+    const SbMeasuredCycle *cycle = sb_measured_cycle(m, c);
+    for (size_t i = cycle->begin; i < cycle->end; i++) {
+      int way;
+      if (slides(&way, m, cycle, i)) {
+        double *force = out->force[way][(int)(m->displacement[i] / out->end * SB_MEASURED_BAND)];
+        force[0] = fmin(m->force[i], force[0]); // of NaN the other
+        force[1] = fmax(m->force[i], force[1]);
+      }
+    }
+  }
+}
 
 SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop) {
   SbComparison *out = g_new0(SbComparison, 1);

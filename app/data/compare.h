@@ -19,8 +19,7 @@ typedef struct {
 } SbLoop;
 
 // Replaces the content of `loop` with the loop of a finished run, and reuses its memory. Returns
-// false if the in-stroke has fewer than two points; the loop is then not for a comparison, but
-// still to be cleared.
+// false if the in-stroke has fewer than two points: such a loop can only be cleared.
 bool sb_loop_take(SbLoop *loop, const SbRun *run);
 
 // Frees the arrays; the loop is empty afterwards.

@@ -3,8 +3,7 @@
 
 #include "app/base/number.h"
 
-#include <math.h>
-#include <string.h>
+#include <gsl/gsl_statistics_double.h>
 
 #define SPEED_MAX 10.0                                        // of a test machine [m/s]
 enum { ROWS_MIN = 8 };                                        // of a loop
@@ -37,8 +36,6 @@ void sb_measured_free(SbMeasured *measured) {
   g_clear_pointer(&measured->cycle, g_array_unref);
   g_free(measured);
 }
-
-// ---- Columns ----
 
 // Whether a column's name has one of the channel's words.
 static bool name_fits(const char *name, SbChannel channel) {
@@ -144,8 +141,7 @@ static bool same_name(const char *a, const char *b) {
   return g_strcmp0(one, other) == 0;
 }
 
-// Whether columns of displacement and force are those of several specimens side by side: pairs in
-// one order with the same names.
+// Whether columns are those of specimens side by side: pairs in one order with the same names.
 static bool are_specimens(const SbTextTable *table, guint64 place, guint64 force) {
   const bool before = FIRST(place) < FIRST(force);
   guint64 low = before ? place : force, high = before ? force : place;
@@ -287,13 +283,10 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   return true;
 }
 
-// ---- Rows ----
-
 // Makes the forces of blocks behind a blank line or names that do not continue the table not a
 // number. Two of these are true of them: the time goes back; the displacement jumps further than
 // between rows of a long block; there are too few rows for a loop. The shorter side of the line is
-// dropped. A block whose time goes back, or a long one without time whose displacement does, is
-// another test, unless a line calls it a cycle.
+// dropped. A block whose time, or without time whose displacement, goes back is another test.
 static void drop_blocks(SbMeasured *m, const double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0;
@@ -355,8 +348,7 @@ static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, 
   return true;
 }
 
-// When the force turned: in the middle between its ways through nine tenths of the peak, as noise
-// moves the peak's own row.
+// When the force turned: midway between nine tenths of the peak, whose own row noise moves.
 static double turn_time(const SbMeasured *m, double sign, size_t peak) {
   const double level = 0.9 * sign * m->force[peak];
   double side[2];
@@ -378,20 +370,17 @@ static double turn_time(const SbMeasured *m, double sign, size_t peak) {
 // from where the record begins; rows behind that are left out.
 static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   enum { LEAST = 5 };
-  double mean = 0;
-  for (size_t i = 0; i < m->count; i++) {
-    mean += m->force[i] / (double)m->count;
-    if (i > 0 && !(m->time[i] >= m->time[i - 1])) {
+  for (size_t i = 1; i < m->count; i++) {
+    if (!(m->time[i] >= m->time[i - 1])) {
       return sb_data_add_issue(
           data, SB_DATA_FILE, NULL, issues,
           "its time decreases at row %zu, and nothing else gives the displacement", i + 1);
     }
   }
-  const double sign = mean < 0 ? -1 : 1;
-  size_t peak = 0, first = 0;
-  for (size_t i = 1; i < m->count; i++) {
-    peak = sign * m->force[i] > sign * m->force[peak] ? i : peak;
-  }
+  const double sign = gsl_stats_mean(m->force, 1, m->count) < 0 ? -1 : 1;
+  const size_t peak = sign > 0 ? gsl_stats_max_index(m->force, 1, m->count)
+                               : gsl_stats_min_index(m->force, 1, m->count);
+  size_t first = 0;
   // The first of several peaks that are all but as high.
   while (first < peak && !(sign * m->force[first] > 0.95 * sign * m->force[peak])) {
     first++;
@@ -428,14 +417,13 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   return true;
 }
 
-static SbMeasured *read_table(SbTextTable *table, const SbData *data, double speed,
-                              GPtrArray *issues) {
+static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed, GPtrArray *list) {
   g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
   double scale[SB_CHANNELS] = {0};
   m->name = g_path_get_basename(data->path);
   m->dialect = table->dialect;
   m->header_lines = table->header_lines;
-  if (!settle_columns(m, table, data, speed, scale, issues)) {
+  if (!settle_columns(m, table, data, speed, scale, list)) {
     return NULL;
   }
   size_t column[SB_CHANNELS + 1], count = 0;
@@ -446,7 +434,7 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
     }
   }
   column[count] = table->columns;
-  if (!sb_text_table_read(&m->lines, read, table, column, count + 1, issues)) {
+  if (!sb_text_table_read(&m->lines, read, table, column, count + 1, list)) {
     return NULL;
   }
   for (int c = 0, k = 0; c < SB_CHANNELS; c++) {
@@ -454,31 +442,30 @@ static SbMeasured *read_table(SbTextTable *table, const SbData *data, double spe
   }
   m->count = m->lines.rows;
   bool good = m->lines.skipped <= m->count ||
-              sb_issues_add(issues, data->path, m->lines.left_line, NULL, NULL,
+              sb_issues_add(list, data->path, m->lines.left_line, NULL, NULL,
                             "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
                             m->lines.skipped, m->count, m->lines.left_text);
   m->dropped = m->lines.damaged;
   drop_blocks(m, read[count]);
   g_free(read[count]);
-  good = good && settle_rows(m, data, scale, issues);
+  good = good && settle_rows(m, data, scale, list);
   if (good && m->count < ROWS_MIN) {
-    good = sb_issues_add(issues, data->path, 0, NULL, "at least 8 rows",
-                         "has too few rows for a loop");
+    good =
+        sb_issues_add(list, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
   }
-  good = good && (m->speed == 0 || displace(m, data, issues)) && sb_measured_find(m, data, issues);
+  good = good && (m->speed == 0 || displace(m, data, list)) && sb_measured_find(m, data, list);
   return good ? g_steal_pointer(&m) : NULL;
 }
 
 SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
                               GPtrArray *issues) {
   SbTextTableDialect wish = {0};
-  if (!sb_measured_dialect(&wish, data, issues)) {
-    return NULL;
-  }
-  g_autoptr(SbTextTable) table = bytes != NULL
+  const bool good = sb_measured_dialect(&wish, data, issues);
+  g_autoptr(SbTextTable) table = !good ? NULL
+                                 : bytes != NULL
                                      ? sb_text_table_parse(bytes, length, &wish, data->path, issues)
                                      : sb_text_table_open(data->path, &wish, issues);
-  return table != NULL ? read_table(table, data, speed, issues) : NULL;
+  return table != NULL ? read_all(table, data, speed, issues) : NULL;
 }
 
 SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {

@@ -1,15 +1,13 @@
 // A measured loop of force against displacement, read from a table of numbers
 // (app/base/text_table.h) and made comparable with a run: SI units, compression positive,
 // displacement increasing on the in-stroke, and the stem's own displacement from its rest position.
-// SbMeasured states what was found in the data and how. Keys of the group [data NAME], which
-// docs/measured-data.md lists, replace what would be found.
-//
-// How these are found. Direction: friction dissipates energy, so the force is greater on the
-// in-stroke; the canister's pressure pushes outwards, so the mean force is positive. Compliance:
-// the slope of displacement against force before the first slip, while the stem is at rest. Zero:
-// the displacement of these rows, and the mean force of the approach before them. Stages B to F:
-// see measured_find.c. Without a column of displacement, the displacement is speed times time up to
-// the maximum force and back; then only the first cycle is used.
+// SbMeasured states what was found in the data and how. Keys of the group [data NAME]
+// (docs/measured-data.md) replace what would be found. Direction: friction dissipates energy, so
+// the force is greater on the in-stroke; the canister's pressure pushes outwards, so the mean force
+// is positive. Compliance: the slope of displacement against force before the first slip, while the
+// stem is at rest. Zero: the displacement of these rows, and the mean force of the approach before
+// them. Stages B to F: see measured_find.c. Without a column of displacement, it is speed times
+// time up to the maximum force and back; then only the first cycle is used.
 #pragma once
 
 #include "app/base/text_table.h"
@@ -113,12 +111,10 @@ G_DEFINE_AUTOPTR_CLEANUP_FUNC(SbMeasured, sb_measured_free)
 // semicolon, decimal comma, utf-8, 3 header lines".
 char *sb_measured_text(const SbMeasured *measured);
 
-// Returns what of the file is left out or in doubt, for the user, in one line. NULL: nothing. Freed
-// by g_free().
+// Returns what of the file is left out or in doubt, for the user, in one line. NULL: nothing.
 char *sb_measured_doubts(const SbMeasured *measured);
 
-// Returns what was found as lines "key = value" of a group [data], which fix it for the next time
-// that the file is read.
+// Returns what was found as lines "key = value" of a group [data], which fix it for later readings.
 char *sb_measured_keys(const SbMeasured *measured);
 
 // ---- Rows for a comparison: those where the stem slides ----

@@ -1,20 +1,17 @@
 // What a measured loop shows by itself: direction, cycles, zero, compliance, noise, stages.
-//
 // Noise: second differences of neighbouring rows while the stem slides, their median magnitude over
 // 0.6745 sqrt(6), which is the deviation where noise is white and normal; steps do not enter a
 // median. Stages: B is the last row before the stem moves by more than 1 % of the stroke at the
 // greatest force, taken half a row further up the rise; D the last row of the sliding force before
 // it rises on the stop, E the first one after that went; C and F are the upper ends of the ramp
-// between two levels, the knots of the continuous piecewise straight line (level, ramp, level on a
-// common slope) of least squares through means over equal pieces of the stroke. A ramp that
-// explains less than half of the squares a straight line leaves is none.
+// between two levels: knots of the continuous line (level, ramp, level on a common slope) of least
+// squares through means over equal pieces of the stroke, if it halves those of a straight line.
 #include "app/data/measured_private.h"
+
+#include "engine/numeric/dense.h"
 
 #include <gsl/gsl_fit.h>
 #include <gsl/gsl_statistics_double.h>
-
-#include <math.h>
-#include <string.h>
 
 enum { LOOKED = 20000 };
 
@@ -30,8 +27,6 @@ static double median_force(const SbMeasured *m, size_t begin, size_t end, double
   }
   return sb_number_median(value, count);
 }
-
-// ---- Cycles ----
 
 // Ends of strokes: rows where the displacement turns by more than a fifth of its range, the first
 // and the last row included. Owned by the caller.
@@ -86,7 +81,7 @@ static double opening(const SbMeasured *m, const GArray *turns) {
 
 static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   const char *said = data->text[SB_DATA_DIRECTION];
-  g_autoptr(GArray) turns = find_turns(m);
+  g_autoptr(GArray) turn = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
     const size_t turned = sb_data_word(data, SB_DATA_DIRECTION, sb_data_directions, issues) - 1;
@@ -96,15 +91,14 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
     double low, high;
     gsl_stats_minmax(&low, &high, m->force, 1, m->count);
     const double middle = median_force(m, 0, m->count, -INFINITY, INFINITY);
-    const double open = opening(m, turns);
+    const double open = opening(m, turn);
     const bool pressed = fabs(middle) > 0.05 * (high - low), loop = isfinite(open) && open != 0;
     m->direction = pressed && loop ? SB_HOW_FOUND : SB_HOW_ASSUMED;
     m->turned_force = pressed && middle < 0;
     if (loop) {
       m->turned_displacement = (open < 0) != m->turned_force;
-    } else if (turns->len > 1) {
-      m->turned_displacement =
-          m->displacement[g_array_index(turns, size_t, 1)] < m->displacement[0];
+    } else if (turn->len > 1) {
+      m->turned_displacement = m->displacement[g_array_index(turn, size_t, 1)] < m->displacement[0];
     }
   }
   for (size_t i = 0; i < m->count; i++) {
@@ -117,12 +111,11 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   m->cycle = g_array_new(FALSE, FALSE, sizeof(SbMeasuredCycle));
   g_autoptr(GArray) turns = find_turns(m);
   for (guint k = 0; k + 1 < turns->len && m->cycle->len < SB_MEASURED_CYCLES_MAX; k++) {
-    const size_t begin = g_array_index(turns, size_t, k);
+    const size_t from = g_array_index(turns, size_t, k);
     const size_t turn = g_array_index(turns, size_t, k + 1);
-    if (m->displacement[turn] > m->displacement[begin]) {
+    if (m->displacement[turn] > m->displacement[from]) {
       const size_t end = k + 2 < turns->len ? g_array_index(turns, size_t, k + 2) : turn;
-      const SbMeasuredCycle cycle = {begin, turn, end + (end + 1 == m->count)};
-      g_array_append_val(m->cycle, cycle);
+      g_array_append_vals(m->cycle, &(SbMeasuredCycle){from, turn, end + (end + 1 == m->count)}, 1);
     }
   }
   if (m->cycle->len == 0) {
@@ -144,8 +137,6 @@ static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   }
   return true;
 }
-
-// ---- Zero and compliance ----
 
 // Of a cycle's in-stroke: rows up to where the force reaches nine tenths of its sliding level.
 typedef struct {
@@ -179,13 +170,9 @@ static void find_no_load(SbMeasured *m, const Rise *rise) {
   if (kept >= rise->begin + 5 &&
       m->displacement[kept] - m->displacement[rise->begin] > 0.01 * rise->range) {
     m->force_zero = SB_HOW_FOUND;
-    double sum = 0;
-    for (size_t i = rise->begin; i < kept; i++) {
-      sum += m->force[i];
-    }
-    m->no_load = sum / (double)(kept - rise->begin);
     m->no_load_row = rise->begin;
     m->no_load_rows = kept - rise->begin;
+    m->no_load = gsl_stats_mean(m->force + rise->begin, 1, m->no_load_rows);
   }
 }
 
@@ -265,8 +252,7 @@ static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   return true;
 }
 
-// While the stem rests on the stop its displacement has no one turn: the greatest force is where
-// the machine turned.
+// The stem rests on the stop: the machine turned at the greatest force, not at a displacement.
 static void settle_turns(SbMeasured *m) {
   for (guint c = 0; c < m->cycle->len; c++) {
     SbMeasuredCycle *cycle = &g_array_index(m->cycle, SbMeasuredCycle, c);
@@ -281,8 +267,6 @@ static void settle_turns(SbMeasured *m) {
     cycle->turn = most;
   }
 }
-
-// ---- Noise ----
 
 static void find_noise(SbMeasured *m) {
   const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
@@ -301,7 +285,108 @@ static void find_noise(SbMeasured *m) {
   }
 }
 
-// ---- Stages ----
+enum { BINS = 160 };
+
+// Level, ramp, level on a common slope through means of the stroke's pieces.
+typedef struct {
+  double x[BINS], y[BINS], weight[BINS];
+  size_t count;
+} Means;
+
+static Means means_of(const SbMeasured *m, size_t begin, size_t end, double low, double high) {
+  Means means = {0};
+  for (size_t i = begin; i < end; i++) {
+    const double share = (m->displacement[i] - low) / (high - low);
+    if (share >= 0 && share < 1) {
+      const int bin = (int)(share * BINS);
+      means.x[bin] += share;
+      means.y[bin] += m->force[i];
+      means.weight[bin]++;
+    }
+  }
+  for (int i = 0; i < BINS; i++) {
+    const double weight = means.weight[i];
+    if (weight > 0) {
+      means.x[means.count] = means.x[i] / weight;
+      means.y[means.count] = means.y[i] / weight;
+      means.weight[means.count++] = weight;
+    }
+  }
+  return means;
+}
+
+// Squares that y = a + b ramp + c x leaves, and the coefficients a, c, b; b = 0 where p = q.
+static double ramp_squares(double coefficient[3], const Means *of, double p, double q) {
+  const size_t n = q > p ? 3 : 2;
+  double a[9] = {0}, right[3] = {0}, square = 0;
+  for (size_t i = 0; i < of->count; i++) {
+    const double ramp = q > p ? fmin(fmax((of->x[i] - p) / (q - p), 0), 1) : 0;
+    const double term[3] = {1, of->x[i], ramp};
+    for (size_t r = 0; r < n; r++) {
+      for (size_t c = 0; c < n; c++) {
+        a[r + n * c] += of->weight[i] * term[r] * term[c];
+      }
+      right[r] += of->weight[i] * term[r] * of->y[i];
+    }
+    square += of->weight[i] * of->y[i] * of->y[i];
+  }
+  memcpy(coefficient, right, sizeof right);
+  if (!sb_eliminate(a, coefficient, n)) {
+    return INFINITY;
+  }
+  for (size_t k = 0; k < n; k++) {
+    square -= coefficient[k] * right[k];
+  }
+  return isfinite(square) ? fmax(square, 0) : INFINITY;
+}
+
+// The ramp of least squares; false where a straight line does nearly as well.
+static bool find_ramp(double *p, double *q, double coefficient[3], const Means *of) {
+  double best = INFINITY, trial[3], low[2] = {0.03, 0.05}, high[2] = {0.95, 0.97};
+  *p = *q = 0;
+  for (double step = 1.0 / 40; step > 1e-4; step /= 4) {
+    for (double x = low[0]; x <= high[0]; x += step) {
+      for (double z = fmax(low[1], x + 0.004); z <= high[1]; z += step) {
+        const double square = ramp_squares(trial, of, x, z);
+        if (square < best) {
+          best = square;
+          *p = x;
+          *q = z;
+        }
+      }
+    }
+    for (int k = 0; k < 2; k++) {
+      low[k] = (k == 0 ? *p : *q) - step;
+      high[k] = low[k] + 2 * step;
+    }
+  }
+  const double line = ramp_squares(trial, of, 0, 0);
+  return isfinite(best) && best < 0.5 * line && isfinite(ramp_squares(coefficient, of, *p, *q));
+}
+
+// Finds the stages C and F of a cycle whose greatest displacement is `stroke` [m]: the upper ends
+// of its ramps, or the reason why there are none.
+static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
+  static const SbStage stages[2] = {SB_STAGE_C, SB_STAGE_F};
+  for (int way = 0; way < 2; way++) {
+    SbMeasuredStage *stage = &m->stage[stages[way]];
+    const double low = 0.02 * stroke, high = 0.98 * stroke;
+    const Means means = means_of(m, way == 0 ? cycle->begin : cycle->turn,
+                                 way == 0 ? cycle->turn : cycle->end, low, high);
+    double p, q, coefficient[3];
+    stage->reason = "the force does not fall between two levels there";
+    if (means.count < 20) {
+      stage->reason = "there are too few rows";
+    } else if (find_ramp(&p, &q, coefficient, &means) &&
+               (way == 0 ? coefficient[2] < 0 : coefficient[2] > 0)) {
+      const double at = way == 0 ? p : q;
+      *stage =
+          (SbMeasuredStage){true, low + at * (high - low),
+                            coefficient[0] + coefficient[1] * at + (way == 1 ? coefficient[2] : 0),
+                            m->noise / sqrt(fmax(means.count / 4.0, 1)), NULL};
+    }
+  }
+}
 
 // How much higher the force can have become between a row and the next, where the stem slipped
 // somewhere between them while the force rose at its rate. A row between two others of the record's
@@ -369,7 +454,7 @@ static void find_stages(SbMeasured *m) {
   find_first_slip(m, cycle, stroke);
   find_stop(m, cycle, stroke);
   const double end = m->stage[SB_STAGE_D].found ? m->stage[SB_STAGE_D].displacement : stroke;
-  sb_measured_ramps(m, cycle, end);
+  find_ramps(m, cycle, end);
   m->stage[SB_STAGE_A].reason = "it is where the record begins";
 }
 

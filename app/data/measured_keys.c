@@ -1,11 +1,7 @@
 // Keys of measured data: reads what they choose, and writes what was recognised; see measured.h.
 #include "app/data/measured_private.h"
 
-#include <math.h>
-#include <string.h>
-
-// Characters of the keys `separator` and `decimal`; the first one, of an absent key, is to be
-// recognised.
+// Characters of the keys `separator` and `decimal`; the first one, without a key: recognised.
 static const char separators[] = "\0,;\t| ", decimals[] = "\0.,";
 
 bool sb_measured_dialect(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues) {

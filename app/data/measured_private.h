@@ -1,8 +1,10 @@
-// Interface between measured.c, which reads and scales the rows, measured_keys.c, measured_find.c
-// and measured_points.c.
+// Shared by measured.c, which reads and scales the rows, measured_keys.c, _find.c and compare.c.
 #pragma once
 
 #include "app/data/measured.h"
+
+#include <math.h>
+#include <string.h>
 
 // Second half of reading a file. On entry `measured` has its columns and rows in SI as the file has
 // them: count, time, displacement (crosshead reading) and force; all later fields are 0. Reverses
@@ -22,7 +24,3 @@ char *sb_measured_layout(const SbMeasured *measured, bool units);
 // Writes the dialect that keys choose; members without a key stay 0. Returns false with an issue
 // for each text that is not known, also of the key `signal`.
 bool sb_measured_dialect(SbTextTableDialect *wish, const SbData *data, GPtrArray *issues);
-
-// Finds the stages C and F of a cycle whose greatest displacement is `stroke` [m]: the upper ends
-// of its ramps, or the reason why there are none.
-void sb_measured_ramps(SbMeasured *measured, const SbMeasuredCycle *cycle, double stroke);

@@ -22,7 +22,7 @@
 #include "app/document/document_parts.h"
 
 #include "app/base/unit.h"
-#include "app/cad/stl.h"
+#include "app/cad/cad.h"
 #include "app/document/document_parts_private.h"
 #include "engine/mechanism/solid.h"
 

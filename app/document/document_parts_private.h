@@ -1,7 +1,7 @@
 // Shared by document_parts.c (shapes) and document_sizes.c (masses and sizes of a shape).
 #pragma once
 
-#include "app/cad/profile.h"
+#include "app/cad/cad.h"
 #include "app/document/document_parts.h"
 
 // A group [part.NAME] while it is read. Everything is borrowed.

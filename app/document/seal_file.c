@@ -6,7 +6,6 @@
 #include "app/base/reader.h"
 #include "app/base/unit.h"
 #include "app/cad/cad.h"
-#include "app/cad/profile.h"
 #include "engine/numeric/arc.h"
 
 #include <math.h>

@@ -1,5 +1,5 @@
 // Drawings of a seal's section (seal.profile_file) and of a groove's outline (gland.profile_file):
-// a text of points as in a part's profile (app/cad/profile.h; # begins a comment), a DXF with one
+// a text of points as in a part's profile (app/cad/cad.h; # begins a comment), a DXF with one
 // closed outline, or for a section a STEP of the ring. In the file x is axial and points out of the
 // canister, and the second coordinate is radial.
 #pragma once

@@ -99,12 +99,23 @@ static bool take_row(SbModelSeries *out, const Column *columns, size_t row, doub
   return true;
 }
 
-static bool read_rows(SbModelSeries *out, const Column *columns, const SbTextTable *table,
-                      const char *name, GPtrArray *issues) {
-  static const size_t column[COLUMNS] = {0, 1};
+static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable *table,
+                       const char *name, GPtrArray *issues) {
+  Column columns[COLUMNS];
   double *value[COLUMNS];
   SbTextTableRows rows;
-  if (!sb_text_table_read(&rows, value, table, column, COLUMNS, issues)) {
+  if (table->columns != COLUMNS) {
+    return sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns", table->columns);
+  }
+  if (!read_heading(&columns[0], kind, table, 0, name, issues) ||
+      !read_heading(&columns[1], kind, table, 1, name, issues)) {
+    return false;
+  }
+  if (kind == SB_SERIES_DRIVE) {
+    const bool force = strcmp(columns[1].quantity->name, "force") == 0;
+    out->quantity = force ? SB_DRIVE_OF_FORCE : SB_DRIVE_OF_POSITION;
+  }
+  if (!sb_text_table_read(&rows, value, table, (const size_t[]){0, 1}, COLUMNS, issues)) {
     return false;
   }
   bool good =
@@ -117,24 +128,6 @@ static bool read_rows(SbModelSeries *out, const Column *columns, const SbTextTab
   g_free(value[1]);
   g_free(rows.left_text);
   return good;
-}
-
-static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable *table,
-                       const char *name, GPtrArray *issues) {
-  Column columns[COLUMNS];
-  if (table->columns != COLUMNS) {
-    return sb_issues_add(issues, name, 0, NULL, "two columns", "has %zu columns", table->columns);
-  }
-  for (size_t i = 0; i < COLUMNS; i++) {
-    if (!read_heading(&columns[i], kind, table, i, name, issues)) {
-      return false;
-    }
-  }
-  if (kind == SB_SERIES_DRIVE) {
-    const bool force = strcmp(columns[1].quantity->name, "force") == 0;
-    out->quantity = force ? SB_DRIVE_OF_FORCE : SB_DRIVE_OF_POSITION;
-  }
-  return read_rows(out, columns, table, name, issues);
 }
 
 bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text, size_t length,

@@ -1,13 +1,9 @@
-// Time series from CSV files that drive a valve or give the temperatures of a shelf.
-//
-// A series has two columns of any table (app/base/text_table.h), named with their units: "time [s]"
-// and the values. Every line after the header must be a row, at most SB_MODEL_SERIES_MAX. Times
-// must increase strictly; the first one is subtracted from all, so that the series begins at time
-// 0. The engine interpolates linearly.
-//
-// All functions return false with at least one issue (file, line, column, allowed range) if the
-// file is not such a series, is larger than SB_SERIES_BYTES_MAX or has a value out of range; *out
-// is then empty. An SbModelSeries owns nothing.
+// Time series from CSV files that drive a valve or give the temperatures of a shelf: two columns of
+// any table (app/base/text_table.h), named with their units: "time [s]" and the values. Every line
+// after the header must be a row, at most SB_MODEL_SERIES_MAX. Times must increase strictly; the
+// first one is subtracted from all: the series begins at 0. The engine interpolates linearly.
+// All functions return false, *out then empty, with at least one issue (file, line, column, allowed
+// range): no such series, above SB_SERIES_BYTES_MAX, value out of range. A series owns nothing.
 #pragma once
 
 #include "app/base/issue.h"

@@ -2,7 +2,7 @@
 // scan is read and evaluated.
 #pragma once
 
-#include "app/data/scan/scan_figures.h"
+#include "app/data/scan/scan.h"
 #include "app/table/json.h"
 
 #include <cairo.h>

@@ -1,6 +1,5 @@
 // Revolved profiles. See solid.h and outline.h; meshes are in solid_mesh.c.
 #include "engine/mechanism/outline.h"
-#include "engine/numeric/arc.h"
 #include "engine/numeric/legendre.h"
 
 #include <float.h>
@@ -10,13 +9,6 @@
 // What an arc that touches the axis may dip below it where drawings are rounded to 1e-11 m: the
 // errors of its height and of its radius.
 static const double ROUNDED = 2e-11;
-
-// One piece of the outline.
-typedef struct {
-  double x0, r0, x1, r1;
-  bool arc;
-  double cx, cr, radius, from, sweep; // arc: centre, radius, start angle, signed angle
-} Piece;
 
 // An outline that starts and ends on the axis is closed by the axis, which encloses no area.
 static bool by_axis(const SbProfile *p) {
@@ -28,60 +20,37 @@ static size_t pieces_of(const SbProfile *p) {
 }
 
 // Piece i of an outline whose x counts from `origin`.
-static void piece_at(Piece *s, const SbProfile *p, size_t i, double origin) {
+static SbPiece piece_at(const SbProfile *p, size_t i, double origin) {
   const SbProfilePoint *a = &p->point[i], *b = &p->point[(i + 1) % p->count];
-  *s = (Piece){.x0 = a->x - origin, .r0 = a->r, .x1 = b->x - origin, .r1 = b->r};
-  s->arc = a->bulge != 0.0;
-  if (s->arc) {
-    const double from[2] = {s->x0, s->r0}, to[2] = {s->x1, s->r1};
-    const SbArc arc = sb_arc_of(from, to, a->bulge);
-    s->cx = arc.centre[0];
-    s->cr = arc.centre[1];
-    s->radius = arc.radius;
-    s->from = arc.start;
-    s->sweep = arc.sweep;
-  }
+  return (SbPiece){a->x - origin, a->r, b->x - origin, b->r, a->bulge};
 }
 
-static void point_on(const Piece *s, double f, double *x, double *r) {
-  if (s->arc) {
-    *x = s->cx + s->radius * cos(s->from + f * s->sweep);
-    *r = s->cr + s->radius * sin(s->from + f * s->sweep);
-  } else {
-    *x = s->x0 + f * (s->x1 - s->x0);
-    *r = s->r0 + f * (s->r1 - s->r0);
-  }
+SbPiece sb_profile_piece(const SbProfile *profile, size_t index) {
+  return piece_at(profile, index, 0.0);
 }
 
-// Place along a piece, 0 .. 1 on it, of a point of its line or circle; just before an arc's start
-// it is below 0, too.
-static double place_on(const Piece *s, const double at[2]) {
-  if (!s->arc) {
-    double dx = s->x1 - s->x0, dr = s->r1 - s->r0;
-    return ((at[0] - s->x0) * dx + (at[1] - s->r0) * dr) / (dx * dx + dr * dr);
-  }
-  double turn = (atan2(at[1] - s->cr, at[0] - s->cx) - s->from) * (s->sweep > 0.0 ? 1.0 : -1.0);
-  turn -= 2.0 * M_PI * floor(turn / (2.0 * M_PI));
-  return (turn > 2.0 * M_PI - 1e-9 ? turn - 2.0 * M_PI : turn) / fabs(s->sweep);
+static double place_on(const SbPiece *s, const double at[2]) {
+  double off;
+  return sb_piece_place(s, at[0], at[1], &off);
 }
 
 // ---- crossings ----
 
 // Points that the lines and circles of two pieces have in common, four at most; of the same line or
 // circle the pieces' ends, between which they may overlap.
-static size_t meet(double at[4][2], const Piece *a, const Piece *b) {
-  if (!a->arc && b->arc) {
+static size_t meet(double at[4][2], const SbPiece *a, const SbPiece *b) {
+  if (a->bulge == 0.0 && b->bulge != 0.0) {
     return meet(at, b, a);
   }
-  const double end[4][2] = {{a->x0, a->r0}, {a->x1, a->r1}, {b->x0, b->r0}, {b->x1, b->r1}};
-  double bx = b->x1 - b->x0, br = b->r1 - b->r0, lb = hypot(bx, br);
-  if (!a->arc) {
-    double ax = a->x1 - a->x0, ar = a->r1 - a->r0, la = hypot(ax, ar);
-    double det = ax * br - ar * bx, dx = b->x0 - a->x0, dr = b->r0 - a->r0;
+  const double end[4][2] = {{a->x0, a->y0}, {a->x1, a->y1}, {b->x0, b->y0}, {b->x1, b->y1}};
+  double bx = b->x1 - b->x0, br = b->y1 - b->y0, lb = hypot(bx, br);
+  if (a->bulge == 0.0) {
+    double ax = a->x1 - a->x0, ar = a->y1 - a->y0, la = hypot(ax, ar);
+    double det = ax * br - ar * bx, dx = b->x0 - a->x0, dr = b->y0 - a->y0;
     if (fabs(det) > 1e-12 * la * lb) {
       double f = (dx * ar - dr * ax) / det; // along b: exact on a cylinder
       at[0][0] = b->x0 + f * bx;
-      at[0][1] = b->r0 + f * br;
+      at[0][1] = b->y0 + f * br;
       return 1;
     }
     bool apart = fabs(dx * ar - dr * ax) > 1e-12 * la * (hypot(dx, dr) + la);
@@ -90,45 +59,42 @@ static size_t meet(double at[4][2], const Piece *a, const Piece *b) {
   }
   // A circle and a line, which of two circles is that through their common points: `foot` is the
   // line's nearest point to a's centre, (ux, ur) its direction.
-  double size = a->radius, ux = bx / lb, ur = br / lb;
-  double foot = (b->r0 - a->cr) * ux - (b->x0 - a->cx) * ur;
-  if (b->arc) {
-    double dx = b->cx - a->cx, dr = b->cr - a->cr, d = hypot(dx, dr);
-    size = fmax(a->radius, b->radius);
+  const SbArc arc = sb_piece_arc(a);
+  double size = arc.radius, ux = bx / lb, ur = br / lb;
+  double foot = (b->y0 - arc.centre[1]) * ux - (b->x0 - arc.centre[0]) * ur;
+  if (b->bulge != 0.0) {
+    const SbArc other = sb_piece_arc(b);
+    double dx = other.centre[0] - arc.centre[0], dr = other.centre[1] - arc.centre[1];
+    double d = hypot(dx, dr);
+    size = fmax(arc.radius, other.radius);
     if (d < 1e-12 * size) {
       memcpy(at, end, sizeof end);
-      return fabs(a->radius - b->radius) > 1e-12 * size ? 0 : 4;
+      return fabs(arc.radius - other.radius) > 1e-12 * size ? 0 : 4;
     }
-    foot = (d * d + (a->radius - b->radius) * (a->radius + b->radius)) / (2.0 * d);
+    foot = (d * d + (arc.radius - other.radius) * (arc.radius + other.radius)) / (2.0 * d);
     ux = dr / d;
     ur = -dx / d;
   }
-  double across = (a->radius - foot) * (a->radius + foot);
+  double across = (arc.radius - foot) * (arc.radius + foot);
   if (across < -1e-14 * size * size) {
     return 0;
   }
   for (int side = 0; side < 2; side++) {
     double along = (side == 0 ? -1.0 : 1.0) * sqrt(fmax(across, 0.0));
-    at[side][0] = a->cx - foot * ur + along * ux;
-    at[side][1] = a->cr + foot * ux + along * ur;
+    at[side][0] = arc.centre[0] - foot * ur + along * ux;
+    at[side][1] = arc.centre[1] + foot * ux + along * ur;
   }
   return 2;
 }
 
-static double piece_length(const Piece *s) {
-  return s->arc ? s->radius * fabs(s->sweep) : hypot(s->x1 - s->x0, s->r1 - s->r0);
-}
-
 // Returns whether two pieces have a common point other than where one continues in the next.
 static bool crosses(const SbProfile *p, size_t i, size_t j, double tiny) {
-  Piece a, b;
+  const SbPiece a = piece_at(p, i, 0.0), b = piece_at(p, j, 0.0);
   double at[4][2];
   size_t total = pieces_of(p);
-  piece_at(&a, p, i, 0.0);
-  piece_at(&b, p, j, 0.0);
   size_t n = meet(at, &a, &b);
   // Where pieces are tangent to each other their meeting is only known to the root of rounding.
-  double la = piece_length(&a), lb = piece_length(&b), near = 1e3 * tiny;
+  double la = sb_piece_length(&a), lb = sb_piece_length(&b), near = 1e3 * tiny;
   bool follows = j == i + 1, precedes = i == 0 && j + 1 == p->count && total == p->count;
   for (size_t k = 0; k < n; k++) {
     // From the start of each piece.
@@ -153,13 +119,15 @@ typedef struct {
   double area, volume, first, third, second; // A, and integrals of r, r x, r^3, r x^2 over it
 } Moments;
 
-static void add_piece(Moments *m, const Piece *s, const double *node, const double *weight) {
-  int panels = s->arc ? 1 + (int)(fabs(s->sweep) / 0.6) : 1;
+static void add_piece(Moments *m, const SbPiece *s, const double *node, const double *weight) {
+  const SbArc arc = s->bulge != 0.0 ? sb_piece_arc(s) : (SbArc){0};
+  int panels = 1 + (int)(fabs(arc.sweep) / 0.6);
   for (int panel = 0; panel < panels; panel++) {
     for (int i = 0; i < POINTS; i++) {
-      double f = (panel + 0.5 + 0.5 * node[i]) / panels, x, r, dx;
-      point_on(s, f, &x, &r);
-      dx = s->arc ? -s->sweep * (r - s->cr) : s->x1 - s->x0;
+      double f = (panel + 0.5 + 0.5 * node[i]) / panels, at[2];
+      sb_piece_point(s, f, at);
+      const double x = at[0], r = at[1];
+      double dx = s->bulge != 0.0 ? -arc.sweep * (r - arc.centre[1]) : s->x1 - s->x0;
       double w = -0.5 * weight[i] / panels * dx;
       m->area += w * r;
       m->volume += w * r * r / 2.0;
@@ -176,29 +144,31 @@ static void moments_of(Moments *m, const SbProfile *p, double origin) {
   *m = (Moments){0};
   size_t n = pieces_of(p);
   for (size_t i = 0; i < n; i++) {
-    Piece s;
-    piece_at(&s, p, i, origin);
+    const SbPiece s = piece_at(p, i, origin);
     add_piece(m, &s, node, weight);
   }
 }
 
 double sb_profile_area(const SbProfile *p) {
-  Moments m;
-  moments_of(&m, p, p->point[0].x);
-  return m.area;
+  double area = 0.0;
+  for (size_t i = 0; i < pieces_of(p); i++) {
+    const SbPiece piece = piece_at(p, i, p->point[0].x);
+    area += sb_piece_area(&piece, 0.0);
+  }
+  return area;
 }
 
 // Whether an outline turns once about a point.
 static bool is_inside(const SbProfile *p, double x, double r) {
   double turn = 0.0;
   for (size_t i = 0; i < p->count; i++) { // the axis too, where it closes the outline
-    Piece s;
-    piece_at(&s, p, i, x);
-    double r0 = s.r0 - r, r1 = s.r1 - r, cross = s.x0 * r1 - s.x1 * r0;
+    const SbPiece s = piece_at(p, i, x);
+    const SbArc arc = s.bulge != 0.0 ? sb_piece_arc(&s) : (SbArc){0};
+    double r0 = s.y0 - r, r1 = s.y1 - r, cross = s.x0 * r1 - s.x1 * r0;
     turn += atan2(cross, s.x0 * s.x1 + r0 * r1);
     // Between chord and arc, the arc turns once more about it.
-    if (s.arc && hypot(s.cx, s.cr - r) < s.radius && cross * s.sweep < 0.0) {
-      turn += s.sweep > 0.0 ? 2.0 * M_PI : -2.0 * M_PI;
+    if (hypot(arc.centre[0], arc.centre[1] - r) < arc.radius && cross * arc.sweep < 0.0) {
+      turn += arc.sweep > 0.0 ? 2.0 * M_PI : -2.0 * M_PI;
     }
   }
   return fabs(turn) > M_PI;
@@ -210,12 +180,11 @@ bool sb_profile_encloses(const SbProfile *outer, const SbProfile *inner) {
   size_t n = 2 * pieces_of(inner);
   bool inside = true;
   for (size_t i = 0; i < n && inside; i += 1 + n / LOOKED) {
-    Piece s;
-    double x, r, next_x, next_r, part = i % 2 == 0 ? 0.25 : 0.5;
-    piece_at(&s, inner, i / 2, 0.0);
-    point_on(&s, part, &x, &r);
-    point_on(&s, part + step, &next_x, &next_r);
-    inside = is_inside(outer, x - step * (next_r - r), r + step * (next_x - x));
+    const SbPiece s = piece_at(inner, i / 2, 0.0);
+    double at[2], next[2], part = i % 2 == 0 ? 0.25 : 0.5;
+    sb_piece_point(&s, part, at);
+    sb_piece_point(&s, part + step, next);
+    inside = is_inside(outer, at[0] - step * (next[1] - at[1]), at[1] + step * (next[0] - at[0]));
   }
   return inside;
 }
@@ -243,14 +212,14 @@ SbStatus sb_profile_check(const SbProfile *p, SbReport *report) {
   size_t n = pieces_of(p);
   double tiny = 1e-9 * extent;
   for (size_t i = 0; i < n; i++) {
-    Piece s;
-    piece_at(&s, p, i, 0.0);
-    if (hypot(s.x1 - s.x0, s.r1 - s.r0) <= tiny) {
+    const SbPiece s = piece_at(p, i, 0.0);
+    if (hypot(s.x1 - s.x0, s.y1 - s.y0) <= tiny) {
       return sb_fail(report, SB_ERROR_INPUT, "piece %zu of the profile has no length", i);
     }
-    const double bottom[2] = {s.cx, s.cr - s.radius};
-    if (s.arc && bottom[1] < -fmax(tiny, ROUNDED) &&
-        place_on(&s, bottom) * fabs(s.sweep) <= fabs(s.sweep) + 1e-9) {
+    const SbArc arc = s.bulge != 0.0 ? sb_piece_arc(&s) : (SbArc){0};
+    const double bottom[2] = {arc.centre[0], arc.centre[1] - arc.radius};
+    if (bottom[1] < -fmax(tiny, ROUNDED) &&
+        fabs(place_on(&s, bottom) - 0.5) * fabs(arc.sweep) <= 0.5 * fabs(arc.sweep) + 1e-9) {
       return sb_fail(report, SB_ERROR_INPUT, "arc %zu of the profile dips below the axis", i);
     }
   }
@@ -336,13 +305,12 @@ static void radii_at(const SbProfile *p, double x, double *low, double *high) {
   for (size_t i = 0; i < p->count; i++) {
     top = fmax(top, p->point[i].r);
   }
-  const Piece across = {.x0 = x, .x1 = x, .r1 = top};
+  const SbPiece across = {.x0 = x, .x1 = x, .y1 = top};
   *low = INFINITY;
   *high = -1.0;
   for (size_t i = 0; i < n; i++) {
-    Piece s;
+    const SbPiece s = piece_at(p, i, 0.0);
     double at[4][2];
-    piece_at(&s, p, i, 0.0);
     for (size_t k = meet(at, &across, &s); k-- > 0;) {
       double place = place_on(&s, at[k]);
       if (place >= 0.0 && place <= 1.0) {
@@ -385,9 +353,8 @@ SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *p, doubl
   look_at(p, x0 + side, out);
   look_at(p, x1 - side, out);
   for (size_t i = 0; i < n; i++) {
-    Piece s;
-    piece_at(&s, p, i, 0.0);
-    double at[2] = {s.x0, s.arc ? s.cx : s.x0};
+    const SbPiece s = piece_at(p, i, 0.0);
+    double at[2] = {s.x0, s.bulge != 0.0 ? sb_piece_arc(&s).centre[0] : s.x0};
     for (int k = 0; k < 4; k++) {
       double x = at[k / 2] + (k % 2 == 0 ? -side : side);
       if (x > x0 && x < x1) {
@@ -404,9 +371,10 @@ SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *p, doubl
 // ---- outlines ----
 
 // Number of chords that deviate by at most `sagitta` from a piece.
-static size_t divisions(const Piece *s, double sagitta) {
-  double step = s->arc ? 2.0 * acos(1.0 - fmin(sagitta / s->radius, 1.0)) : 1.0;
-  return (size_t)fmax(1.0, ceil(fabs(s->sweep) / step));
+static size_t divisions(const SbPiece *s, double sagitta) {
+  const SbArc arc = s->bulge != 0.0 ? sb_piece_arc(s) : (SbArc){.radius = sagitta};
+  double step = 2.0 * acos(1.0 - fmin(sagitta / arc.radius, 1.0));
+  return (size_t)fmax(1.0, ceil(fabs(arc.sweep) / step));
 }
 
 SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitta,
@@ -417,8 +385,7 @@ SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitt
     return status;
   }
   for (size_t i = 0; i < p->count;) {
-    Piece piece;
-    piece_at(&piece, p, i, 0.0);
+    const SbPiece piece = piece_at(p, i, 0.0);
     size_t n = divisions(&piece, sagitta);
     if (out->count + n > SB_OUTLINE_MAX) {
       // From the start, coarser.
@@ -428,9 +395,9 @@ SbStatus sb_outline_of_profile(SbOutline *out, const SbProfile *p, double sagitt
     }
     out->point[out->count++] = (SbOutlinePoint){p->point[i].x, p->point[i].r}; // exactly
     for (size_t k = 1; k < n; k++) {
-      SbOutlinePoint *at = &out->point[out->count++];
-      point_on(&piece, (double)k / (double)n, &at->x, &at->r);
-      at->r = fmax(at->r, 0.0);
+      double at[2];
+      sb_piece_point(&piece, (double)k / (double)n, at);
+      out->point[out->count++] = (SbOutlinePoint){at[0], fmax(at[1], 0.0)};
     }
     i++;
   }

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "engine/base/status.h"
+#include "engine/numeric/arc.h"
 
 // Largest number of points of a half-section.
 enum { SB_PROFILE_MAX = 512 };
@@ -36,6 +37,9 @@ typedef struct {
   double inertia[3][3]; // tensor about the centre of mass, axes of the coordinates [kg m2]; off the
                         // diagonal minus the products of inertia
 } SbSolid;
+
+// Returns piece `index` of an outline, from its point of this index to the next one; y is r [m].
+SbPiece sb_profile_piece(const SbProfile *profile, size_t index);
 
 // Returns the area [m2] in an outline of at least 2 points, which need not be counter-clockwise:
 // then the area is negative.

@@ -1,5 +1,5 @@
-// Vectors of three and unit quaternions (w, x, y, z). Private to engine/mechanism. Outputs may be
-// the same arrays as inputs. The functions have no state.
+// Vectors of three and unit quaternions (w, x, y, z). Private to engine/mechanism and app/cad.
+// Outputs may be the same arrays as inputs. The functions have no state.
 #pragma once
 
 #include <math.h>

@@ -132,11 +132,11 @@ SbCad *drawing_parse(const GString *dxf, const SbCadChoices *choices) {
 
 static void check_stem(const SbCadBody *body, double tolerance) {
   static const SbCadFeature expected[] = {
-      {SB_CAD_BORE, -0.5, 1.1, 1.8, 0},        {SB_CAD_LAND, -0.3, 0, 5.794, 0},
-      {SB_CAD_GROOVE, 0, 2, 3.28, 1.257},      {SB_CAD_LAND, 2, 2.65, 5.794, 0},
-      {SB_CAD_GROOVE, 2.65, 5.55, 4.1, 0.847}, {SB_CAD_LAND, 5.55, 6.2, 5.794, 0},
-      {SB_CAD_GROOVE, 6.2, 8.2, 3.28, 1.257},  {SB_CAD_BORE, 7.5, 9.3, 1.8, 0},
-      {SB_CAD_LAND, 8.2, 9.1, 5.794, 0}};
+      {-0.5, 1.1, 1.8, 0, SB_CAD_BORE},        {-0.3, 0, 5.794, 0, SB_CAD_LAND},
+      {0, 2, 3.28, 1.257, SB_CAD_GROOVE},      {2, 2.65, 5.794, 0, SB_CAD_LAND},
+      {2.65, 5.55, 4.1, 0.847, SB_CAD_GROOVE}, {5.55, 6.2, 5.794, 0, SB_CAD_LAND},
+      {6.2, 8.2, 3.28, 1.257, SB_CAD_GROOVE},  {7.5, 9.3, 1.8, 0, SB_CAD_BORE},
+      {8.2, 9.1, 5.794, 0, SB_CAD_LAND}};
   g_assert_cmpstr(body->why, ==, NULL);
   g_assert_cmpfloat_with_epsilon(body->solid.volume / drawing_stem_volume(), 1, tolerance);
   g_assert_cmpuint(body->profile->len, ==, STEM);

@@ -55,7 +55,7 @@ static SbCad *parse_mesh(const GByteArray *mesh, const SbCadChoices *choices, GE
 // Its unit, axis, section and groove are found; mass is the mesh's, of chords.
 static void test_mesh(void) {
   static const SbCadFeature expected[] = {
-      {SB_CAD_LAND, 0, 2, 5, 0}, {SB_CAD_GROOVE, 2, 4, 3.2, 0.9}, {SB_CAD_LAND, 4, 6, 5, 0}};
+      {0, 2, 5, 0, SB_CAD_LAND}, {2, 4, 3.2, 0.9, SB_CAD_GROOVE}, {4, 6, 5, 0, SB_CAD_LAND}};
   const SbCadChoices none = {0}, inch = {.unit = "inch"};
   for (int kind = 0; kind < 2; kind++) {
     g_autoptr(GError) error = NULL;

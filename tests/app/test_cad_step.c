@@ -140,9 +140,9 @@ static void check_measured(const SbCadBody *body, const Measured *kernel, double
 // Lands and grooves to a nanometre; `start`: where x = 0 of the drawing lies on the axis found.
 static void check_stem(const SbCadBody *body, double start) {
   static const SbCadFeature expected[] = {
-      {SB_CAD_GROOVE, 0, 2, 3.28, 1.06},     {SB_CAD_LAND, 2, 2.65, 5.8, 0},
-      {SB_CAD_GROOVE, 2.65, 5.55, 4, 0.9},   {SB_CAD_LAND, 5.55, 6.2, 5.8, 0},
-      {SB_CAD_GROOVE, 6.2, 8.2, 3.28, 1.26}, {SB_CAD_LAND, 8.2, 9.1, 5.8, 0}};
+      {0, 2, 3.28, 1.06, SB_CAD_GROOVE},     {2, 2.65, 5.8, 0, SB_CAD_LAND},
+      {2.65, 5.55, 4, 0.9, SB_CAD_GROOVE},   {5.55, 6.2, 5.8, 0, SB_CAD_LAND},
+      {6.2, 8.2, 3.28, 1.26, SB_CAD_GROOVE}, {8.2, 9.1, 5.8, 0, SB_CAD_LAND}};
   g_assert_cmpstr(body->why, ==, NULL);
   g_assert_cmpuint(body->profile->len, ==, STEM);
   g_assert_cmpuint(body->features->len, ==, G_N_ELEMENTS(expected));

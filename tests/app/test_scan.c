@@ -1,7 +1,6 @@
 // Readers of scans: what was written comes back, in every form; what is cut short, ambiguous or no
 // scan is refused with the place.
 #include "app/data/scan/scan.h"
-#include "app/data/scan/scan_figures.h"
 #include "tests/app/choices.h"
 #include "tests/app/scan_files.h"
 

@@ -1,5 +1,5 @@
 // STL files: both forms, units, what is refused; and the mass of what they hold.
-#include "app/cad/stl.h"
+#include "app/cad/cad.h"
 
 #include "app/base/unit.h"
 #include "engine/mechanism/solid.h"

@@ -2,7 +2,6 @@
 // at them, which the engine weighs or refuses, or one complaint and nothing.
 #include "app/base/unit.h"
 #include "app/cad/cad_private.h"
-#include "app/cad/stl.h"
 #include "engine/mechanism/solid.h"
 
 #include <math.h>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "app/base/error.h"
-#include "app/data/scan/scan_figures.h"
+#include "app/data/scan/scan.h"
 
 #include <math.h>
 #include <stdint.h>

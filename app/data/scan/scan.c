@@ -5,49 +5,42 @@
 #include "app/base/unit.h"
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
-
-bool sb_scan_allocate(SbScan *out, guint64 columns, guint64 rows, GError **error) {
-  const guint64 most = SB_HEIGHTS_POINTS_MAX;
+bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error) {
+  const size_t most = SB_HEIGHTS_POINTS_MAX;
   if (columns == 0 || rows == 0 || columns > most || rows > most / columns) {
-    return sb_app_error_input(error,
-                              "%" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT
-                              " points (allowed at most %" G_GUINT64_FORMAT ")",
-                              columns, rows, most);
+    return sb_app_error_input(error, "%zu x %zu points (allowed at most %zu)", columns, rows, most);
   }
-  out->heights.columns = out->heights.stride = (size_t)columns;
-  out->heights.rows = (size_t)rows;
-  out->heights.z = g_try_new(double, (gsize)(columns * rows));
+  out->heights.columns = out->heights.stride = columns;
+  out->heights.rows = rows;
+  out->heights.z = g_try_new(double, columns *rows);
   if (out->heights.z == NULL) {
-    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for %" G_GUINT64_FORMAT " points",
-                columns * rows);
+    g_set_error(error, SB_APP_ERROR, SB_APP_ERROR_IO, "no memory for %zu points", columns * rows);
   }
   return out->heights.z != NULL;
 }
 
-static double number_at(const guchar *p, SbScanKind kind) {
-  return kind == SB_SCAN_U8      ? *p
-         : kind == SB_SCAN_U16   ? sb_bytes_u16(p)
-         : kind == SB_SCAN_U32   ? sb_bytes_u32(p)
-         : kind == SB_SCAN_I8    ? (gint8)*p
-         : kind == SB_SCAN_I16   ? (gint16)sb_bytes_u16(p)
-         : kind == SB_SCAN_I32   ? (gint32)sb_bytes_u32(p)
-         : kind == SB_SCAN_FLOAT ? sb_bytes_float(p)
-                                 : sb_bytes_double(p);
+static double number_at(const guchar *p, char kind) {
+  return kind == 'B'   ? *p
+         : kind == 'H' ? sb_bytes_u16(p)
+         : kind == 'I' ? sb_bytes_u32(p)
+         : kind == 'b' ? (gint8)*p
+         : kind == 'h' ? (gint16)sb_bytes_u16(p)
+         : kind == 'i' ? (gint32)sb_bytes_u32(p)
+         : kind == 'f' ? sb_bytes_float(p)
+                       : sb_bytes_double(p);
 }
 
-bool sb_scan_take_grid(SbScan *out, guint64 columns, guint64 rows, SbScanKind kind,
-                       SbScanBytes bytes, double scale, double missing, GError **error) {
-  static const guint8 sizes[SB_SCAN_KINDS] = {1, 2, 4, 4, 1, 2, 4, 8};
-  const guint64 room = (guint64)(bytes.end - bytes.at) / sizes[kind];
+bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, char kind, SbScanBytes bytes,
+                       double scale, double missing, GError **error) {
+  static const guint8 sizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
+  const size_t size = sizes[strcspn(SB_SCAN_KINDS, (char[]){kind, '\0'})];
+  const size_t room = (size_t)(bytes.end - bytes.at) / size;
   if (columns > 0 && rows > 0 && (columns > room || rows > room / columns)) {
-    return sb_app_error_input(
-        error, "is cut short: %" G_GUINT64_FORMAT " x %" G_GUINT64_FORMAT " points announced",
-        columns, rows);
+    return sb_app_error_input(error, "is cut short: %zu x %zu points announced", columns, rows);
   }
   const bool good = sb_scan_allocate(out, columns, rows, error);
-  for (guint64 i = 0; good && i < columns * rows; i++) {
-    const double value = number_at(bytes.at + i * sizes[kind], kind);
+  for (size_t i = 0; good && i < columns * rows; i++) {
+    const double value = number_at(bytes.at + i * size, kind);
     out->heights.z[i] = value == missing || fabs(value) > 3.4e38 ? NAN : scale * value;
   }
   return good;
@@ -61,8 +54,7 @@ double sb_scan_length(const char *unit) {
   return *name != '\0' && sb_unit_scale(&value, unit, "m", "µm", NULL) ? value : 0;
 }
 
-static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                        GError **error) {
+static bool read_format(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
   static const struct {
     const char *start;
     SbScanReader *read;
@@ -70,25 +62,25 @@ static bool read_format(SbScan *out, SbScanBytes bytes, const SbScanChoices *cho
                  {"PK\x03\x04", sb_scan_parse_x3p}, {"aISO-1.0", sb_scan_parse_sdf},
                  {"aBCR-1.0", sb_scan_parse_sdf},   {"bISO-1.0", sb_scan_parse_sdf},
                  {"bBCR-1.0", sb_scan_parse_sdf},   {"", sb_scan_parse_text}};
-  const gsize length = (gsize)(bytes.end - bytes.at);
+  const gsize length = (gsize)(file.end - file.at);
   gsize format = 0;
   for (gsize skip; skip = strlen(formats[format].start),
-                   skip > length || memcmp(bytes.at, formats[format].start, skip) != 0;) {
+                   skip > length || memcmp(file.at, formats[format].start, skip) != 0;) {
     format++;
   }
-  if (*formats[format].start != '\0' && (choices->unit > 0 || choices->lateral_unit > 0)) {
-    return sb_app_error_choose(error, choices->unit > 0 ? "unit" : "lateral-unit", "",
+  if (*formats[format].start != '\0' && (wish->unit > 0 || wish->lateral_unit > 0)) {
+    return sb_app_error_choose(error, wish->unit > 0 ? "unit" : "lateral-unit", "",
                                "states its own units, which only a text file may lack");
   }
-  if (format != 0 && choices->channel != NULL) {
+  if (format != 0 && wish->channel != NULL) {
     return sb_app_error_choose(error, "channel", "", "has no channels, which a .gwy has");
   }
-  if (!formats[format].read(out, bytes, choices, error)) {
+  if (!formats[format].read(out, file, wish, error)) {
     return false;
   }
   SbHeights *h = &out->heights;
-  if (choices->spacing > 0) {
-    h->dx = h->dy = choices->spacing;
+  if (wish->spacing > 0) {
+    h->dx = h->dy = wish->spacing;
   }
   if (!(isfinite(h->dx) && h->dx > 0 && (h->rows == 1 || (isfinite(h->dy) && h->dy > 0)))) {
     return sb_app_error_input(error, "has no distance between its points");

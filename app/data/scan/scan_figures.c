@@ -1,5 +1,5 @@
-// See scan_figures.h.
-#include "app/data/scan/scan_figures.h"
+// See scan.h.
+#include "app/data/scan/scan.h"
 
 #include "engine/valve/model/params.h"
 
@@ -7,8 +7,6 @@
 
 #include <math.h>
 #include <string.h>
-
-// ---- Cut-offs ----
 
 static void add_cutoff(SbScanFigures *out, double cutoff_short, double cutoff_long) {
   if (out->cutoff_count < SB_SCAN_CUTOFFS_MAX) {
@@ -34,8 +32,6 @@ static void find_cutoffs(SbScanFigures *out, const SbHeights *h) {
   }
 }
 
-// ---- Parts ----
-
 static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *report) {
   enum { PART_SIDE = 64 };
   const size_t shorter = h->rows > 1 && h->rows < h->columns ? h->rows : h->columns;
@@ -51,19 +47,16 @@ static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *rep
   return status;
 }
 
-SbScanScatter sb_scan_scatter(const SbScanFigures *figures,
-                              double (*value)(const SbHeightFigures *part)) {
+SbScanScatter sb_scan_scatter(const SbScanFigures *from, double (*value)(const SbHeightFigures *)) {
   double each[SB_SCAN_PARTS_MAX];
   size_t count = 0;
-  for (int k = 0; k < figures->part_rows * figures->part_columns; k++) {
-    each[count] = value(&figures->part[k]);
+  for (int k = 0; k < from->part_rows * from->part_columns; k++) {
+    each[count] = value(&from->part[k]);
     count += isfinite(each[count]);
   }
   return count < 2 ? (SbScanScatter){NAN, NAN}
                    : (SbScanScatter){gsl_stats_mean(each, 1, count), gsl_stats_sd(each, 1, count)};
 }
-
-// ---- What to be warned of ----
 
 // Share of m4 in waves of fewer points than this.
 static double fine_share(const SbHeightSpectrum *spectrum, double step, double points) {

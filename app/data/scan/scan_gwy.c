@@ -4,7 +4,6 @@
 // and "/N/mask", whose points of 0.5 and more are missing; everything else is stepped over.
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
 #include <stdio.h>
 
 enum { CHANNELS_MAX = 1024, COMPONENTS_MAX = 100000 };
@@ -13,14 +12,14 @@ typedef struct {
   const char *name;
   char kind;
   const guchar *value; // begins here; of an array behind its count
-  guint64 count;       // of an array, or bytes of an object behind its head; 0: absent
+  size_t count;        // of an array, or bytes of an object behind its head; 0: absent
   const char *object;  // its class
 } Component;
 
 // Steps over `count` bytes and returns them; NULL if there are fewer.
-static const guchar *take(SbScanBytes *bytes, guint64 count) {
+static const guchar *take(SbScanBytes *bytes, size_t count) {
   const guchar *at = bytes->at;
-  if (count > (guint64)(bytes->end - at)) {
+  if (count > (size_t)(bytes->end - at)) {
     return NULL;
   }
   bytes->at += count;
@@ -29,25 +28,16 @@ static const guchar *take(SbScanBytes *bytes, guint64 count) {
 
 // A text with its end within the bytes; NULL without.
 static const char *take_text(SbScanBytes *bytes) {
-  const guint64 left = (guint64)(bytes->end - bytes->at);
-  const guint64 length = strnlen((const char *)bytes->at, left);
+  const size_t left = (size_t)(bytes->end - bytes->at);
+  const size_t length = strnlen((const char *)bytes->at, left);
   return length < left ? (const char *)take(bytes, length + 1) : NULL;
-}
-
-static bool take_count(SbScanBytes *bytes, guint64 *out) {
-  const guchar *p = take(bytes, 4);
-  *out = p != NULL ? sb_bytes_u32(p) : 0;
-  return p != NULL;
 }
 
 // Returns the class of an object and writes its content; NULL if it is not complete.
 static const char *take_object(SbScanBytes *bytes, SbScanBytes *content) {
   const char *name = take_text(bytes);
-  guint64 size;
-  if (name == NULL || !take_count(bytes, &size)) {
-    return NULL;
-  }
-  content->at = take(bytes, size);
+  const guchar *size = name != NULL ? take(bytes, 4) : NULL;
+  content->at = size != NULL ? take(bytes, sb_bytes_u32(size)) : NULL;
   content->end = bytes->at;
   return content->at != NULL ? name : NULL;
 }
@@ -63,23 +53,23 @@ static bool take_component(Component *out, SbScanBytes *bytes) {
   }
   out->kind = (char)*kind;
   const char one = g_ascii_tolower(out->kind), *number = memchr(numbers, one, sizeof sizes);
-  guint64 count = 1;
-  if (one != out->kind && !take_count(bytes, &count)) {
+  const guchar *length = one != out->kind ? take(bytes, 4) : NULL;
+  if (one != out->kind && length == NULL) {
     return false;
   }
   out->value = bytes->at;
-  out->count = count;
+  const size_t count = out->count = length != NULL ? sb_bytes_u32(length) : 1;
   if (number != NULL) {
     return take(bytes, sizes[number - numbers] * count) != NULL;
   }
   const char *text = "";
-  for (guint64 k = 0; k < count && text != NULL; k++) {
+  for (size_t k = 0; k < count && text != NULL; k++) {
     SbScanBytes content = *bytes;
     text = one == 's' ? take_text(bytes) : one == 'o' ? take_object(bytes, &content) : NULL;
     if (out->kind == 'o' && text != NULL) {
       out->object = text;
       out->value = content.at;
-      out->count = (guint64)(content.end - content.at);
+      out->count = (size_t)(content.end - content.at);
     }
   }
   return text != NULL;
@@ -97,10 +87,8 @@ static bool find(Component *out, const Component *object, char kind, const char 
   return false;
 }
 
-// ---- Fields ----
-
 typedef struct {
-  guint64 columns, rows;
+  size_t columns, rows;
   double width, height;
   const char *unit_xy, *unit_z;
   const guchar *data; // of doubles
@@ -121,21 +109,18 @@ static bool read_field(Field *out, const Component *field, GError **error) {
   out->rows = sized ? sb_bytes_u32(rows.value) : 0;
   out->width = find(&width, field, 'd', "xreal") ? sb_bytes_double(width.value) : 0;
   out->height = find(&height, field, 'd', "yreal") ? sb_bytes_double(height.value) : 0;
-  if (!find(&data, field, 'D', "data") || data.count == 0 ||
-      out->columns * out->rows != data.count) {
+  const bool known = find(&data, field, 'D', "data") && data.count > 0;
+  if (!known || out->columns * out->rows != data.count) {
     return sb_app_error_input(error, "a data field's size is not that of its data");
   }
   out->data = data.value;
   return true;
 }
 
-// ---- Channels ----
-
 // Finds "/ID/NAME" in the container.
-static bool find_of(Component *out, const Component *container, char kind, long id,
-                    const char *name) {
+static bool find_of(Component *out, const Component *from, char kind, long id, const char *name) {
   g_autofree char *path = g_strdup_printf("/%ld/%s", id, name);
-  return find(out, container, kind, path);
+  return find(out, from, kind, path);
 }
 
 // Finds the data of the channel that is requested, else of the only one of heights, and the title,
@@ -196,17 +181,15 @@ static bool apply_mask(SbScan *out, const Component *field, GError **error) {
   if (mask.rows != out->heights.rows || mask.columns != out->heights.columns) {
     return sb_app_error_input(error, "the mask has not the size of its data");
   }
-  guint64 masked = 0;
-  for (guint64 i = 0; i < mask.columns * mask.rows; i++) {
+  size_t masked = 0;
+  for (size_t i = 0; i < mask.columns * mask.rows; i++) {
     if (sb_bytes_double(mask.data + 8 * i) >= 0.5) {
       out->heights.z[i] = NAN;
       masked++;
     }
   }
   if (masked > 0) {
-    sb_note_add(out->notes,
-                "%" G_GUINT64_FORMAT " masked points are missing, unless masks are ignored",
-                masked);
+    sb_note_add(out->notes, "%zu masked points are missing, unless masks are ignored", masked);
   }
   return true;
 }
@@ -223,7 +206,7 @@ static bool read_channel(SbScan *out, const Component *channel, GError **error) 
                               field.unit_xy, field.unit_z);
   }
   const SbScanBytes data = {field.data, field.data + 8 * field.columns * field.rows};
-  if (!sb_scan_take_grid(out, field.columns, field.rows, SB_SCAN_DOUBLE, data, z, NAN, error)) {
+  if (!sb_scan_take_grid(out, field.columns, field.rows, 'd', data, z, NAN, error)) {
     return false;
   }
   out->heights.dx = xy * field.width / (double)field.columns;
@@ -231,22 +214,21 @@ static bool read_channel(SbScan *out, const Component *channel, GError **error) 
   return true;
 }
 
-bool sb_scan_parse_gwy(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                       GError **error) {
+bool sb_scan_parse_gwy(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
   out->format = "Gwyddion";
-  bytes.at += 4;
+  file.at += 4;
   SbScanBytes content;
-  const char *class = take_object(&bytes, &content);
+  const char *class = take_object(&file, &content);
   if (g_strcmp0(class, "GwyContainer") != 0) {
     return sb_app_error_input(error, "contains no GwyContainer, or is cut short");
   }
-  const Component container = {.value = content.at, .count = (guint64)(content.end - content.at)};
+  const Component container = {.value = content.at, .count = (size_t)(content.end - content.at)};
   Component data, title = {0}, mask;
-  const long id = choose(&data, &title, &container, choices->channel, error);
+  const long id = choose(&data, &title, &container, wish->channel, error);
   if (id < 0 || !read_channel(out, &data, error)) {
     return false;
   }
   out->title = g_strdup((const char *)title.value);
-  return choices->ignore_mask || !find_of(&mask, &container, 'o', id, "mask") ||
+  return wish->ignore_mask || !find_of(&mask, &container, 'o', id, "mask") ||
          g_strcmp0(mask.object, "GwyDataField") != 0 || apply_mask(out, &mask, error);
 }

@@ -4,8 +4,6 @@
 // them. Leaves out series, colours and the compressed form of later programs.
 #include "app/data/scan/scan_private.h"
 
-#include <math.h>
-
 enum { SUR_HEADER = 512, PROFILE = 1, SURFACE = 2 };
 
 // A text field, cut at its end, in UTF-8.
@@ -27,12 +25,11 @@ static bool read_spacing(double *out, const guchar *h, int axis, GError **error)
                             step, unit);
 }
 
-bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                       GError **error) {
-  const guchar *h = bytes.at;
+bool sb_scan_parse_sur(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
+  const guchar *h = file.at;
   out->format = "Digital Surf";
-  if (bytes.end - bytes.at < SUR_HEADER) {
-    return sb_app_error_input(error, "is cut short: no header of %d bytes", SUR_HEADER);
+  if (file.end - file.at < SUR_HEADER) {
+    return sb_app_error_input(error, "is cut short: no header of %d file", SUR_HEADER);
   }
   const int kind = (gint16)sb_bytes_u16(h + 18), bits = (gint16)sb_bytes_u16(h + 98);
   const gint32 columns = (gint32)sb_bytes_u32(h + 108), rows = (gint32)sb_bytes_u32(h + 112);
@@ -47,14 +44,13 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes bytes, const SbScanChoices *choi
     return sb_app_error_input(error, "has points of %d bits (allowed 16 or 32)", bits);
   }
   const glong begin = SUR_HEADER + sb_bytes_u16(h + 334) + sb_bytes_u16(h + 336);
-  bytes.at += MIN(begin, bytes.end - bytes.at);
+  file.at += MIN(begin, file.end - file.at);
   double step = 0;
-  const double missing =
-      sb_bytes_u16(h + 86) != 0 ? (double)(gint32)sb_bytes_u32(h + 100) - 2 : NAN;
+  const double absent = sb_bytes_u16(h + 86) != 0 ? (double)(gint32)sb_bytes_u32(h + 100) - 2 : NAN;
   if (!read_spacing(&step, h, 2, error) || !read_spacing(&out->heights.dx, h, 0, error) ||
       (rows > 1 && !read_spacing(&out->heights.dy, h, 1, error)) ||
-      !sb_scan_take_grid(out, (guint64)columns, (guint64)rows,
-                         bits == 16 ? SB_SCAN_I16 : SB_SCAN_I32, bytes, step, missing, error)) {
+      !sb_scan_take_grid(out, (size_t)columns, (size_t)rows, bits == 16 ? 'h' : 'i', file, step,
+                         absent, error)) {
     return false;
   }
   out->heights.dx = fabs(out->heights.dx);

@@ -8,12 +8,9 @@
 
 #include "app/base/number.h"
 
-#include <math.h>
 #include <zip.h>
 
 enum { XML_MAX = 1 << 20 };
-
-// ---- main.xml ----
 
 // Takes the text of an element: path after the root, without name spaces, in lower case -> text.
 static void on_text(GMarkupParseContext *context, const char *text, gsize length, gpointer user,
@@ -49,8 +46,6 @@ static double number(GHashTable *texts, const char *path, double missing) {
   return value;
 }
 
-// ---- The zip ----
-
 // A path in lower case, with slashes, after a slash.
 static char *tidy_path(const char *path) {
   path += g_str_has_prefix(path, "./") ? 2 : *path == '/';
@@ -58,48 +53,39 @@ static char *tidy_path(const char *path) {
   return g_strconcat("/", g_strdelimit(lower, "\\", '/'), NULL);
 }
 
-// Returns the index of a member by the path after the folder of main.xml; -1 without one. The case
-// of letters, the kind of slashes and a folder around everything do not matter: the least deep one
-// is returned, as folders of a resource fork that archivers add are deeper.
-static zip_int64_t find_member(zip_t *zip, const char *path) {
-  enum { MEMBERS_MAX = 10000 };
-  const zip_int64_t count = MIN(zip_get_num_entries(zip, 0), MEMBERS_MAX);
-  g_autofree char *wanted = tidy_path(path);
-  zip_int64_t found = -1;
+// Returns the bytes of a member by the path after the folder of main.xml; NULL with an error. The
+// case of letters, the kind of slashes and a folder around everything do not matter: it is the
+// least deep one, unlike resource forks. Deflate packs 1032 to one at most: else it is a bomb.
+static guchar *member(zip_t *zip, const char *name, size_t *size, size_t most, size_t packed,
+                      GError **error) {
+  enum { MEMBERS_MAX = 10000, KNOWN = ZIP_STAT_NAME | ZIP_STAT_SIZE | ZIP_STAT_INDEX };
+  zip_stat_t about = {0}, each;
   size_t best = SIZE_MAX;
-  for (zip_int64_t i = 0; i < count; i++) {
-    const char *raw = zip_get_name(zip, (zip_uint64_t)i, 0);
-    g_autofree char *name = tidy_path(raw != NULL ? raw : "");
-    if (g_str_has_suffix(name, wanted) && strlen(name) < best) {
-      best = strlen(name);
-      found = i;
+  g_autofree char *wanted = tidy_path(name);
+  for (zip_int64_t i = 0; i < MIN(zip_get_num_entries(zip, 0), MEMBERS_MAX); i++) {
+    const bool known =
+        zip_stat_index(zip, (zip_uint64_t)i, 0, &each) == 0 && (each.valid & KNOWN) == KNOWN;
+    g_autofree char *path = tidy_path(known ? each.name : "");
+    if (g_str_has_suffix(path, wanted) && strlen(path) < best) {
+      best = strlen(path);
+      about = each;
     }
   }
-  return found;
-}
-
-// A member's bytes and their number in *size; NULL with an error. Deflate packs at most 1032 to
-// one: more is announced by a bomb alone.
-static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most, guint64 packed,
-                      GError **error) {
-  zip_stat_t about;
-  const zip_int64_t at = find_member(zip, name);
-  if (at < 0 || zip_stat_index(zip, (zip_uint64_t)at, 0, &about) != 0 ||
-      (about.valid & ZIP_STAT_SIZE) == 0) {
+  if (best == SIZE_MAX) {
     sb_app_error_input(error, "has no member \"%s\"", name);
     return NULL;
   }
   if (about.size > most || about.size / 1100 > packed) {
-    sb_app_error_input(error, "\"%s\" is announced with %" G_GUINT64_FORMAT " bytes: too many",
-                       name, (guint64)about.size);
+    sb_app_error_input(error, "\"%s\" is announced with %zu bytes: too many", name,
+                       (size_t)about.size);
     return NULL;
   }
   guchar *out = g_try_malloc0(about.size + 1);
-  zip_file_t *file = out != NULL ? zip_fopen_index(zip, (zip_uint64_t)at, 0) : NULL;
+  zip_file_t *file = out != NULL ? zip_fopen_index(zip, about.index, 0) : NULL;
   const zip_int64_t got = file != NULL ? zip_fread(file, out, about.size) : -1;
   // The check sum is looked at when there is no more.
   char end;
-  if (got < 0 || (guint64)got != about.size || zip_fread(file, &end, 1) != 0) {
+  if (got < 0 || (size_t)got != about.size || zip_fread(file, &end, 1) != 0) {
     sb_app_error_input(error, "\"%s\" cannot be unpacked", name);
     g_clear_pointer(&out, g_free);
   }
@@ -108,9 +94,9 @@ static guchar *member(zip_t *zip, const char *name, guint64 *size, guint64 most,
   return out;
 }
 
-static bool read_main(GHashTable *texts, zip_t *zip, guint64 packed, GError **error) {
+static bool read_main(GHashTable *texts, zip_t *zip, size_t packed, GError **error) {
   static const GMarkupParser parser = {.text = on_text};
-  guint64 size = 0;
+  size_t size = 0;
   g_autofree char *xml = (char *)member(zip, "main.xml", &size, XML_MAX, packed, error);
   if (xml == NULL) {
     return false;
@@ -124,7 +110,7 @@ static bool read_main(GHashTable *texts, zip_t *zip, guint64 packed, GError **er
       return sb_app_error_input(error, "main.xml is not sound UTF-16");
     }
   }
-  const guint64 mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
+  const size_t mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
   g_autoptr(GMarkupParseContext) context =
       g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, texts, NULL);
   g_autoptr(GError) problem = NULL;
@@ -147,10 +133,8 @@ static bool read_step(double *out, GHashTable *texts, char axis, GError **error)
          sb_app_error_input(error, "C%c has no increment above 0", g_ascii_toupper(axis));
 }
 
-static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 packed,
-                        GError **error) {
-  static const char types[] = "ILFD";
-  static const SbScanKind kinds[] = {SB_SCAN_I16, SB_SCAN_I32, SB_SCAN_FLOAT, SB_SCAN_DOUBLE};
+static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packed, GError **error) {
+  static const char types[] = "ILFD", kinds[] = "hifd";
   const char *link = text_of(texts, "record3/datalink/pointdatalink");
   const char *feature = text_of(texts, "record1/featuretype"),
              *type = text_of(texts, "record1/axes/cz/datatype");
@@ -180,8 +164,8 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
     return sb_app_error_input(error, "CZ has the increment \"%s\"",
                               text_of(texts, "record1/axes/cz/increment"));
   }
-  const guint64 points = (guint64)columns * (guint64)rows;
-  guint64 got = 0, valid_got = 0;
+  const size_t points = (size_t)columns * (size_t)rows;
+  size_t got = 0, valid_got = 0;
   g_autofree guchar *data = member(zip, link, &got, 8 * points, packed, error);
   g_autofree guchar *valid = NULL;
   if (data == NULL) {
@@ -194,23 +178,22 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, guint64 pack
       return valid != NULL && sb_app_error_input(error, "its valid points are cut short");
     }
   }
-  if (!sb_scan_take_grid(out, (guint64)columns, (guint64)rows, kinds[known - types],
+  if (!sb_scan_take_grid(out, (size_t)columns, (size_t)rows, kinds[known - types],
                          (SbScanBytes){data, data + got}, step, NAN, error)) {
     return false;
   }
-  for (guint64 i = 0; valid != NULL && i < points; i++) {
+  for (size_t i = 0; valid != NULL && i < points; i++) {
     out->heights.z[i] = (valid[i / 8] >> (i % 8) & 1) != 0 ? out->heights.z[i] : NAN;
   }
   return true;
 }
 
-bool sb_scan_parse_x3p(SbScan *out, SbScanBytes bytes, const SbScanChoices *choices,
-                       GError **error) {
-  const guint64 packed = (guint64)(bytes.end - bytes.at);
+bool sb_scan_parse_x3p(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
+  const size_t packed = (size_t)(file.end - file.at);
   out->format = "X3P";
   zip_error_t problem;
   zip_error_init(&problem);
-  zip_source_t *source = zip_source_buffer_create(bytes.at, packed, 0, &problem);
+  zip_source_t *source = zip_source_buffer_create(file.at, packed, 0, &problem);
   zip_t *zip = source != NULL ? zip_open_from_source(source, ZIP_RDONLY, &problem) : NULL;
   bool good = zip != NULL;
   if (good) {
