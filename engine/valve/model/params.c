@@ -230,10 +230,9 @@ const char *sb_params_size_check(char text[SB_TEXT], SbParamId *id, const SbPara
     *id = SB_P_STEM_CHAMBER_LENGTH;
     return chamber_overlaps(text, params) ? "size-overlap" : NULL;
   }
-  SbParamId giver;
-  double sign;
-  const bool row =
-      sb_params_keeps(id, &giver, &sign, index, (int)sb_params_get(params, SB_P_VALVE_KIND));
+  *id = keeps[index].id;
+  const SbParamId giver = keeps[index].giver;
+  const bool row = keeps[index].kind == (int)sb_params_get(params, SB_P_VALVE_KIND);
   const double now = sb_params_get(params, giver), drawn = params->drawn[index];
   const double scatter = sb_params_get(params, keeps[index].tolerance) + 1e-12;
   if (row && !params->given[*id] && moved_by(params, index) != 0 &&
