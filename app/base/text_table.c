@@ -486,6 +486,7 @@ void sb_text_table_free(SbTextTable *table) {
   for (size_t i = 0; i < table->columns; i++) {
     g_free(table->column[i].name);
     g_free(table->column[i].unit);
+    g_free(table->column[i].other);
   }
   g_free(table);
 }

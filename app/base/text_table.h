@@ -53,6 +53,7 @@ enum { SB_TEXT_TABLE_COLUMNS_MAX = 64 };
 typedef struct {
   char *name;   // without its unit; empty: none
   char *unit;   // its usual spelling where the file's is known, else the file's; empty: none
+  char *other;  // another unit that the file states in the name or in a line of units; NULL: none
   bool numeric; // its cells are numbers
   bool clock;   // its cells are times of day
 } SbTextTableColumn;

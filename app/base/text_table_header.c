@@ -196,22 +196,30 @@ static bool is_open(const SbTextTable *table, size_t count) {
                            quote[-1] == table->dialect.separator);
 }
 
-// Takes units, or names with units, from a header line.
+// Takes the unit of a column that has none yet; another one is kept apart.
+static void take_unit(SbTextTableColumn *column, char *unit) {
+  const bool differs = *unit != '\0' && strcmp(unit, column->unit) != 0;
+  char **to = *column->unit == '\0' ? &column->unit : differs ? &column->other : &unit;
+  g_free(*to);
+  *to = to != &unit ? unit : NULL;
+}
+
+// Takes units, or names with units, from a header line; the line nearest to the rows comes first.
 static void take_header_line(SbTextTable *table, char *const *cells, bool units_only) {
   for (size_t k = 0; k < table->columns && cells[k] != NULL; k++) {
     SbTextTableColumn *column = &table->column[k];
-    g_autofree char *unit = NULL, *name = NULL;
+    char *unit = NULL, *name = NULL, *inner = NULL;
     if (units_only) {
-      unit = unit_text(cells[k], strlen(cells[k]));
-    } else {
-      split_name(&name, &unit, cells[k]);
-      g_free(column->name);
-      column->name = g_steal_pointer(&name);
+      take_unit(column, unit_text(cells[k], strlen(cells[k])));
+      continue;
     }
-    if (*column->unit == '\0' || (units_only && *unit != '\0')) {
-      g_free(column->unit);
-      column->unit = g_steal_pointer(&unit);
-    }
+    split_name(&name, &unit, cells[k]);
+    take_unit(column, unit);
+    g_free(column->name);
+    column->name = name;
+    split_name(&name, &inner, column->name); // "Disp_mm [um]"
+    take_unit(column, inner);
+    g_free(name);
   }
 }
 
@@ -276,6 +284,9 @@ void sb_text_table_take_header(SbTextTable *table) {
       take_header_line(table, cells, units);
       found[units] = true;
     } else {
+      if (units && found[0]) { // units above the names too
+        take_header_line(table, cells, true);
+      }
       stopped = true;
     }
   }

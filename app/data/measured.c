@@ -230,6 +230,41 @@ static bool miss_column(const SbMeasured *m, const SbTextTable *table, const SbD
       timed ? ": specify the constant speed of the machine, as in speed = 20 mm/min" : "");
 }
 
+// Writes the scale of a column to SI. A number before the unit may be a remark, and names and units
+// may differ: the key decides. False with an issue.
+static bool settle_unit(double *scale, const SbMeasured *m, const SbTextTable *table,
+                        const SbData *data, SbChannel c, GPtrArray *issues) {
+  const char *unit = m->column[c].unit, *other = table->column[m->column[c].at - 1].other;
+  const bool good = unit_scale(scale, unit, c), none = *unit == '\0';
+  double factor, second;
+  const char *plain = skip_factor(&factor, unit);
+  g_autofree char *doubt = NULL, *both = NULL;
+  if (good && data->text[SB_DATA_UNITS] != NULL) {
+    return true;
+  }
+  if (!good) {
+    doubt = g_strdup(none ? "" : ", which is none of its kind");
+  } else if (other != NULL && unit_scale(&second, other, c) && second != *scale) {
+    doubt = g_strdup_printf(", in another place \"%s\"", other);
+    both = g_strdup_printf("%s\n%s", unit, other);
+  } else if (plain != unit) {
+    doubt = g_strdup(", of which the number may be a remark");
+  }
+  if (doubt == NULL) {
+    return true;
+  }
+  char size[SB_NUMBER_SIZE];
+  both = both != NULL ? both
+                      : g_strdup_printf("%s %s\n%s", sb_number_format(size, factor), plain, plain);
+  g_autofree char *layout = sb_measured_layout(m, true);
+  g_autofree char *all =
+      sb_choice_layouts(layout, BIT(m->column[c].at - 1), good ? both : channels[c].units);
+  return sb_data_add_choice(data, SB_DATA_UNITS, good || none ? all : NULL, issues,
+                            "column %zu \"%s\" (%s) has %s%s%s%s", m->column[c].at,
+                            m->column[c].name, sb_channel_names[c],
+                            none ? "no unit" : "the unit \"", unit, none ? "" : "\"", doubt);
+}
+
 static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data, double speed,
                            double *scale, GPtrArray *issues) {
   const bool said = take_said(m, table, data, issues);
@@ -253,31 +288,12 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
-    const char *unit = m->column[c].unit;
     scale[c] = 1;
-    if (unit == NULL || m->column[c].clock) {
+    if (m->column[c].unit == NULL || m->column[c].clock) {
       continue;
     }
-    // The number may be the unit's, or a remark; a key states which.
-    double factor;
-    const bool good = unit_scale(&scale[c], unit, (SbChannel)c);
-    const char *plain = skip_factor(&factor, unit);
-    const bool number = good && plain != unit && data->text[SB_DATA_UNITS] == NULL;
-    if (!good || number) {
-      char size[SB_NUMBER_SIZE];
-      g_autofree char *both =
-          g_strdup_printf("%s %s\n%s", sb_number_format(size, factor), plain, plain);
-      g_autofree char *layout = sb_measured_layout(m, true);
-      g_autofree char *all =
-          sb_choice_layouts(layout, BIT(m->column[c].at - 1), number ? both : channels[c].units);
-      const bool none = *unit == '\0';
-      return sb_data_add_choice(data, SB_DATA_UNITS, none || number ? all : NULL, issues,
-                                "column %zu \"%s\" (%s) has %s%s%s", m->column[c].at,
-                                m->column[c].name, sb_channel_names[c],
-                                none ? "no unit" : "the unit \"", unit,
-                                none     ? ""
-                                : number ? "\", of which the number may be a remark"
-                                         : "\", which is none of its kind");
+    if (!settle_unit(&scale[c], m, table, data, (SbChannel)c, issues)) {
+      return false;
     }
   }
   return true;

@@ -573,6 +573,7 @@ static void test_named(void) {
       {"x_um;y_um;z_nm\n", "1;2;3", "\nSa;0.6;nm\n\nNo;Sa;Sq\n1;2;3\n", NULL},
       {"x;z [nm];z 2 [nm]\n", "1;3;4", "", "columns 2 and 3 may both be z"},
       {"i;x [um];y [um];z [nm]\n", "4;1;4;3", "", "form no grid"},
+      {"x [um];y [um];z [nm]\num;um;um\n", "1;2;3", "", "states two units of its heights"},
       {"x [um];y [um];z [nm]\n", "1;2;3", "\nx [um];y [um];z [nm]\n1;2;3\n", "the table again"},
       {"x [um];y [um];z [nm]\n", "1;2;3", "over;over;3\n1;2;3\n", "numbers expected"},
   };

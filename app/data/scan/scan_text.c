@@ -331,9 +331,12 @@ static bool take_factor(Header *h, SbScan *out, const Text *text, const SbScanCh
 
 // Settles a unit by precedence: the caller's, the header's, that of the column's name. Returns
 // false with an error that `key` resolves if the latter two differ, or if it is needed and unknown.
-static bool settle_unit(double *unit, double column, double chosen, bool needed, const char *key,
-                        const char *what, GError **error) {
-  const bool two = *unit > 0 && column > 0 && *unit != column && chosen == 0;
+static bool settle_unit(double *unit, const SbTextTableColumn *named, double chosen, bool needed,
+                        const char *key, const char *what, GError **error) {
+  const double column = named != NULL ? sb_scan_length(named->unit) : 0;
+  const double other = column > 0 && named->other != NULL ? sb_scan_length(named->other) : 0;
+  const bool two = chosen == 0 && column > 0 &&
+                   ((*unit > 0 && *unit != column) || (other > 0 && other != column));
   *unit = chosen > 0 ? chosen : *unit > 0 ? *unit : column;
   return !(two || (needed && *unit == 0)) ||
          sb_app_error_choose(
@@ -349,7 +352,6 @@ static bool find_units(Header *h, SbScan *out, const Text *text, const SbScanCho
   const SbTextTableColumn *column = text->table->column;
   const double x = columns > 1 && columns <= 3 ? sb_scan_length(column[use[0]].unit) : 0;
   const double y = columns == 3 ? sb_scan_length(column[use[1]].unit) : 0;
-  const double z = columns <= 3 ? sb_scan_length(column[use[columns - 1]].unit) : 0;
   if (y > 0 && y != x) {
     return sb_app_error_input(error, "x and y have different units");
   }
@@ -360,9 +362,10 @@ static bool find_units(Header *h, SbScan *out, const Text *text, const SbScanCho
     h->factor = NAN;
   }
   h->lateral = h->lateral == 0 && x == 0 ? choices->unit : h->lateral;
-  if (!settle_unit(&h->vertical, z, choices->unit, true, "unit", "heights", error) ||
-      !settle_unit(&h->lateral, x, choices->lateral_unit, needs_lateral, "lateral-unit", "lengths",
-                   error)) {
+  if (!settle_unit(&h->vertical, columns <= 3 ? &column[use[columns - 1]] : NULL, choices->unit,
+                   true, "unit", "heights", error) ||
+      !settle_unit(&h->lateral, columns > 1 && columns <= 3 ? &column[use[0]] : NULL,
+                   choices->lateral_unit, needs_lateral, "lateral-unit", "lengths", error)) {
     return false;
   }
   if (isfinite(h->factor)) {
