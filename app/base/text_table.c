@@ -263,11 +263,6 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
       (dialect->matrix && (fit.shape.saw & SB_TEXT_TABLE_SAW_PADDED) != 0)) {
     fit.score *= 0.5;
   }
-  // In a matrix, a mark before three digits is a decimal mark, unless there is another one, or the
-  // mark is between commas and in quotes.
-  const bool quoted = sample->quoted && dialect->separator == ',';
-  const unsigned decimals = fit.shape.saw & (SB_TEXT_TABLE_SAW_MARK | SB_TEXT_TABLE_SAW_DECIMAL);
-  fit.score *= !dialect->matrix || quoted || decimals != SB_TEXT_TABLE_SAW_MARK;
   return fit;
 }
 

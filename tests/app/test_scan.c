@@ -354,16 +354,15 @@ static void test_commas(void) {
   assert_chosen(either, strlen(either), &scale, "decimal", "point\ncomma");
   static const char profile[] = "0,0,123\n1,0,045\n2,0,500\n"; // x, and z with a decimal comma
   assert_chosen(profile, strlen(profile), &scale, "decimal", "point");
+  static const char grouped[] = "-869\t-1,400\t-856\n-1,001\t-1,347\t-829\n"; // thousands?
+  assert_chosen(grouped, strlen(grouped), &scale, "decimal", "point\ncomma");
   const struct {
     const char *text;
     char decimal;
     size_t columns, rows;
     double first; // height [nm]
-  } cases[] = {{either, ',', 3, 2, 1.523},
-               {either, '.', 6, 2, 1},
-               {integers, '\0', 4, 2, 1},
-               {profile, '.', 3, 3, 0},
-               {names, '\0', 3, 1, 523}};
+  } cases[] = {{grouped, '.', 3, 2, -869}, {either, ',', 3, 2, 1.523}, {either, '.', 6, 2, 1},
+               {integers, '\0', 4, 2, 1},  {profile, '.', 3, 3, 0},    {names, '\0', 3, 1, 523}};
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     const SbScanChoices choices = {.unit = 1e-9, .spacing = 1e-6, .decimal = cases[i].decimal};
     SbScan scan;
@@ -463,7 +462,7 @@ static void test_headers(void) {
   GString *linked = g_string_new("x in \xc2\xb5m;z in nm\n");
   for (int j = 0; j < COLUMNS; j++) {
     g_string_append_printf(text, "%.2f,%.6f,,\n", 0.5 * j, 1e6 * height[j]);
-    g_string_append_printf(linked, "%.2f;%.3f\n", 0.5 * j, 1e9 * height[j]);
+    g_string_append_printf(linked, "%.2f;%.4f\n", 0.5 * j, 1e9 * height[j]);
   }
   g_strdelimit(linked->str + 18, ".", ',');
   assert_text(text, &plain, &h);
@@ -528,7 +527,7 @@ static void test_lengths(void) {
       if (i < 2 || two) {
         g_string_append_printf(text, "%.2f;", 0.5 * j);
       }
-      g_string_append_printf(text, "%.3f\n", 1e9 * height[j]);
+      g_string_append_printf(text, "%.4f\n", 1e9 * height[j]);
     }
     if (two) {
       assert_refused(text->str, text->len, &plain, "states two units of its heights");
@@ -547,7 +546,7 @@ static void test_points(void) {
     for (int k = 0; k < COLUMNS * ROWS; k++) {
       const int i = order == 0 ? k / COLUMNS : k % ROWS, j = order == 0 ? k % COLUMNS : k / ROWS;
       if (!isnan(height[i * COLUMNS + j])) {
-        g_string_append_printf(text, "%.4f,%.4f,%.3f\n", 7 + 0.5 * j, 2.0 * i,
+        g_string_append_printf(text, "%.4f,%.4f,%.4f\n", 7 + 0.5 * j, 2.0 * i,
                                1e9 * height[i * COLUMNS + j]);
       }
     }
@@ -586,7 +585,7 @@ static void test_named(void) {
         if (*at < '1' || *at > '4') {
           g_string_append_c(text, *at);
         } else {
-          g_string_append_printf(text, "%.3f",
+          g_string_append_printf(text, "%.4f",
                                  *at == '1'   ? 0.5 * j
                                  : *at == '2' ? 2.0 * i
                                  : *at == '3' ? 1e9 * height[k]
@@ -611,8 +610,8 @@ static void test_profile(void) {
   h.rows = 1;
   GString *text = g_string_new("x (mm);z (nm)\n"), *single = g_string_new("");
   for (int j = 0; j < COLUMNS; j++) {
-    g_string_append_printf(text, "%.5f;%.3f\n", 1 + 0.0005 * j, 1e9 * height[j]);
-    g_string_append_printf(single, "%.3f\n", 1e9 * height[j]);
+    g_string_append_printf(text, "%.5f;%.4f\n", 1 + 0.0005 * j, 1e9 * height[j]);
+    g_string_append_printf(single, "%.4f\n", 1e9 * height[j]);
   }
   assert_text(text, &plain, &h);
   assert_text(single, &(SbScanChoices){.unit = 1e-9, .spacing = 0.5e-6}, &h);
