@@ -357,7 +357,7 @@ bool sb_text_table_is_row(const SbTextTable *table, const GString *line) {
 static void find_block(SbTextTable *table, const Sample *sample) {
   // Names, of a matrix with the number of cells -> index of the first row, number of rows.
   g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
-  size_t most = 0;
+  size_t most = 0, votes = 0;
   SbTextTableBlock block = {0};
   table->header_lines = sample->head;
   for (size_t i = 0; i < sample->head; i++) {
@@ -367,7 +367,10 @@ static void find_block(SbTextTable *table, const Sample *sample) {
     if (!row) {
       continue;
     }
-    const size_t span = table->dialect.matrix ? sb_text_table_shape(line, &table->dialect).span : 0;
+    const SbTextTableShape shape = sb_text_table_shape(line, &table->dialect);
+    const size_t span = table->dialect.matrix ? shape.span : 0;
+    table->file->texts = votes == 0 ? shape.texts : table->file->texts;
+    votes += shape.texts == table->file->texts ? 1 : (size_t)-1;
     g_autofree char *names = g_strdup_printf("%zu%s", span, block.names != NULL ? block.names : "");
     size_t *found = g_hash_table_lookup(blocks, names);
     if (found == NULL) {
@@ -382,6 +385,7 @@ static void find_block(SbTextTable *table, const Sample *sample) {
       table->file->names = g_strdup(block.names);
     }
   }
+  table->header_lines += sb_text_table_labelled(table, table->header_lines, 1);
   g_free(block.names);
 }
 

@@ -286,6 +286,10 @@ static void test_habits(void) {
       {"Operator;Miller\nZeit;Weg;Kraft\ns;mm;N\n", "@t;@x;@f\n",
        "s;mm;kN\n1;900;1\ns;mm;N\n;;\nOperator;Miller\nZeit;Weg;Kraft\ns;mm;kN\n1;900;1\n", ',', 1,
        1},
+      // Rows of results with a label, directly above and below.
+      {"Name;Zeit;Weg;Kraft\nEinheit;s;mm;N\nMin;0;0,3;900\nMax;41,7;900;1\n", ";@t;@x;@f\n",
+       "Mittel;20;900;900\nMax;41,7;900;900\n", ',', 1, 1},
+      {"No;Time;Ext;Load\n;s;mm;N\n", "7;@t;@x;@f\n", "Mean;20;900;900\n", '.', 1, 1},
       // A label before the names, ends of lines in quotes.
       {"# test\n# columns: time[s] displacement[mm] force[N]\n", "@t @x @f\n", "", '.', 1, 1},
       {"\"Time\n(s)\",\"Extension\nby LVDT\n(mm)\",\"Load\n(N)\"\n", "@t,@x,@f\n", "", '.', 1, 1},
