@@ -100,6 +100,9 @@ typedef struct {
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
+// Returns how often the text of a column changes from row to row; empty cells are as above them.
+size_t sb_text_table_changes(const SbTextTable *table, size_t column);
+
 // Numbers of a matrix, row after row.
 typedef struct {
   GArray *value;        // of double; NaN: void. Freed by g_array_unref()

@@ -157,6 +157,22 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   return wrong == NULL;
 }
 
+size_t sb_text_table_changes(const SbTextTable *table, size_t column) {
+  SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX], last = {0};
+  size_t changes = 0;
+  for (size_t i = table->header_lines; i < table->file->line->len; i++) {
+    const GString *line = sb_text_table_line(table, i);
+    if (sb_text_table_is_row(table, line) &&
+        column < sb_text_table_split(cell, line->str, line->len, table->dialect.separator) &&
+        cell[column].length > 0) {
+      changes += last.length > 0 && (cell[column].length != last.length ||
+                                     memcmp(cell[column].text, last.text, last.length) != 0);
+      last = cell[column];
+    }
+  }
+  return changes;
+}
+
 // Appends and counts the numbers of a line, without empty last cells beyond `columns`; -1: a text.
 static gssize append_cells(GArray *out, const GString *line, size_t columns, size_t most,
                            const SbTextTableDialect *dialect) {

@@ -5,9 +5,7 @@
 
 #include <gsl/gsl_statistics_double.h>
 
-#define SPEED_MAX 10.0                                        // of a test machine [m/s]
-enum { ROWS_MIN = 8 };                                        // of a loop
-#define CYCLE "cy[ck]l|zykl|ciclo|\\bloop|цикл|循环|サイクル" // in a line above a cycle
+#define SPEED_MAX 10.0 // of a test machine [m/s]
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -299,41 +297,6 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   return true;
 }
 
-// Makes the forces of blocks behind a blank line or names that do not continue the table not a
-// number. Two of these are true of them: the time goes back; the displacement jumps further than
-// between rows of a long block; there are too few rows for a loop. The shorter side of the line is
-// dropped. A block whose time, or without time whose displacement, goes back is another test.
-static void drop_blocks(SbMeasured *m, const double *block) {
-  const double *time = m->time, *place = m->displacement;
-  double step = 0;
-  const size_t blocks = m->count > 0 ? (size_t)(block[m->count - 1] - block[0]) + 1 : 1;
-  const size_t most = MAX(m->count / blocks / 2, ROWS_MIN);
-  for (size_t i = most; place != NULL && i < m->count; i++) {
-    step = block[i] == block[i - most] ? fmax(step, fabs(place[i] - place[i - 1])) : step;
-  }
-  const char *line = m->lines.left_text != NULL ? m->lines.left_text : "";
-  const bool cycles = g_regex_match_simple(CYCLE, line, G_REGEX_CASELESS, 0);
-  for (size_t i = 0, end, kept = 0, last = 0; i < m->count; i = end) {
-    for (end = i + 1; end < m->count && block[end] == block[i];) {
-      end++;
-    }
-    const bool back = kept > 0 && time != NULL && time[i] < time[last];
-    const bool jump = kept > 0 && step > 0 && fabs(place[i] - place[last]) > 2 * step;
-    const bool apart = back + jump + (MIN(kept, end - i) < ROWS_MIN) > 1;
-    const bool before = apart && kept < end - i;
-    for (size_t k = before ? 0 : i; apart && k < (before ? i : end); k++) {
-      m->force[k] = NAN;
-    }
-    m->jumps |= (back || jump) && !apart;
-    const bool again = time == NULL && place != NULL && MIN(kept, end - i) >= ROWS_MIN &&
-                       2 * (end - i) >= kept &&
-                       fabs(place[i] - place[0]) <= fabs(place[i] - place[last]);
-    m->tests += (back || again) && !apart && !cycles;
-    kept = apart ? MAX(kept, end - i) : kept + end - i;
-    last = apart && !before ? last : end - 1;
-  }
-}
-
 // To SI in place, dropping rows with a gap; false with an issue on a value that is none of a valve.
 static bool settle_rows(SbMeasured *m, const SbData *data, const double *scale, GPtrArray *issues) {
   size_t kept = 0;
@@ -462,7 +425,7 @@ static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed
                             "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
                             m->lines.skipped, m->count, m->lines.left_text);
   m->dropped = m->lines.damaged;
-  drop_blocks(m, read[count]);
+  sb_measured_tests(m, table, read[count]);
   g_free(read[count]);
   good = good && settle_rows(m, data, scale, list);
   if (good && m->count < ROWS_MIN) {

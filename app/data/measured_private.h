@@ -1,4 +1,5 @@
-// Shared by measured.c, which reads and scales the rows, measured_keys.c, _find.c and compare.c.
+// Shared by measured.c, which reads and scales the rows, measured_keys.c, _find.c, _tests.c and
+// compare.c.
 #pragma once
 
 #include "app/data/measured.h"
@@ -17,6 +18,12 @@ bool sb_measured_find(SbMeasured *measured, const SbData *data, GPtrArray *issue
 static inline const SbMeasuredCycle *sb_measured_cycle(const SbMeasured *measured, size_t index) {
   return &g_array_index(measured->cycle, SbMeasuredCycle, index);
 }
+
+enum { ROWS_MIN = 8 }; // of a loop
+
+// Makes the forces of rows not a number that do not continue the table, and counts the tests below
+// the first one. block[row]: number of its block in the table, changed.
+void sb_measured_tests(SbMeasured *measured, const SbTextTable *table, double *block);
 
 // Returns the layout (app/base/choice.h) of the columns: names of channels or, with `units`, units.
 char *sb_measured_layout(const SbMeasured *measured, bool units);

@@ -568,6 +568,8 @@ static void test_blocks(void) {
       {"", "\n9,9;9,75;20,0\n9,9;8,0;5,0\n", 0, COUNT, 2, false, false, 0},
       {"", "\n" LOOP, 0, COUNT + 8, 0, true, false, 1},
       {"", HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"", LOOP, 0, COUNT + 8, 0, true, false, 1},
+      {"1;1;1\n", "", 0, COUNT, 1, false, false, 0},
       {"", "\nProbe 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
       {"", "\nZyklus 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 0},
       {"0;0;1\n1;9;2\n" HEAD, "", 0, COUNT, 2, false, false, 0},
@@ -599,6 +601,28 @@ static void test_blocks(void) {
     g_assert_cmpuint(m->tests, ==, cases[i].tests);
     g_assert_cmpuint(m->last, ==, cases[i].tests > 0 ? 0 : m->cycle->len - 1);
     g_assert_true((strstr(words, "one below the other") != NULL) == (cases[i].tests > 0));
+  }
+}
+
+// Two specimens below each other, that a column names though the time goes on; a counter is none.
+static void test_specimens(void) {
+  static const char *const names[] = {"Specimen", "Sample ID", "Test No.",
+                                      "試験片",   "Sample",    "Note"};
+  for (size_t k = 0; k < G_N_ELEMENTS(names); k++) {
+    GString *text = g_string_new(names[k]);
+    g_string_append(text, ",Time (s),Ext (mm),Load (N)\n");
+    for (int i = 0; i < 80; i++) {
+      const int phase = i % 40;
+      g_string_append_printf(text, "A%d,%d.5,%d.5,%d.5\n", k == 4 ? i : i / 40, i,
+                             phase < 20 ? phase : 40 - phase, phase < 20 ? 20 : 5);
+    }
+    SbData *data = sb_data_of_file("x.csv");
+    g_autoptr(GBytes) bytes = g_string_free_to_bytes(text);
+    g_autoptr(SbMeasured) m = read_bytes(bytes, data);
+    sb_data_free(data);
+    g_assert_cmpuint(m->count, ==, 80);
+    g_assert_cmpuint(m->tests, ==, k < 4);
+    g_assert_cmpuint(m->last, ==, k < 4 ? 0 : m->cycle->len - 1);
   }
 }
 
@@ -771,6 +795,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/time-alone", test_time_alone);
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/blocks", test_blocks);
+  g_test_add_func("/measured/specimens", test_specimens);
   g_test_add_func("/measured/numbers", test_numbers);
   g_test_add_func("/measured/left-line", test_left_line);
   g_test_add_func("/measured/clocks", test_clocks);
