@@ -59,7 +59,7 @@ static bool is_unit(const char *text) {
 static void split_name(char **name, char **unit, const char *text) {
   static const char *const links[] = {" in ", " en ", "/", "_", ",", ":", " "};
   const size_t length = strlen(text);
-  const char *open = NULL, *close = NULL;
+  const char *open = NULL, *close = NULL, *behind = "";
   bool known = false;
   *unit = NULL;
   for (const char *c = text + length; c > text && !known; c--) {
@@ -71,6 +71,7 @@ static void split_name(char **name, char **unit, const char *text) {
       known = is_unit(inside);
       if (known || (close == text + length - 1 && open == NULL)) {
         open = c - 1;
+        behind = close + 1;
         g_free(*unit);
         *unit = g_steal_pointer(&inside);
       }
@@ -86,7 +87,9 @@ static void split_name(char **name, char **unit, const char *text) {
       *unit = g_steal_pointer(&tail);
     }
   }
-  *name = g_strstrip(g_strndup(text, open != NULL ? (size_t)(open - text) : length));
+  *name =
+      g_strdup_printf("%.*s%s", (int)(open != NULL ? open - text : (gssize)length), text, behind);
+  g_strstrip(*name);
   *unit = *unit != NULL ? *unit : g_strdup("");
 }
 

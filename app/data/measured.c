@@ -5,7 +5,8 @@
 
 #include <gsl/gsl_statistics_double.h>
 
-#define SPEED_MAX 10.0 // of a test machine [m/s]
+#define SPEED_MAX 10.0                                                   // of a test machine [m/s]
+#define FACTOR    "fa[ckt]?t[oe]|multipl|s[ck]al|échelle|gain|倍率|係数" // in a line with a factor
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -228,6 +229,33 @@ static bool miss_column(const SbMeasured *m, const SbTextTable *table, const SbD
       timed ? ": specify the constant speed of the machine, as in speed = 20 mm/min" : "");
 }
 
+// Returns what may state a factor of a column, which it writes: its name ("Force x 0.001"), or a
+// line of the header for its channel, with a cell for each column, or of no channel. NULL: nothing.
+static const char *find_factor(double *factor, const SbTextTable *table, size_t at, SbChannel c) {
+  const char *text = table->column[at].name;
+  for (size_t i = 0; text != NULL; text = table->header[i++]) {
+    g_auto(GStrv) cells = g_strsplit_set(text, table->dialect.separator == ',' ? ",;" : ";|", -1);
+    const bool each = i > 0 && g_strv_length(cells) == table->columns && !name_fits(text, c);
+    const char *cell = each ? cells[at] : text;
+    const bool known = i == 0 || each || name_fits(text, c) ||
+                       (c == SB_CHANNEL_FORCE &&
+                        g_regex_match_simple("^\\W*(" FACTOR ")", text, G_REGEX_CASELESS, 0));
+    const char *number = cell + strlen(cell);
+    while (number > cell && strchr("0123456789.,+-eE) ", number[-1]) != NULL) {
+      number--;
+    }
+    number += strcspn(number, "0123456789");
+    const bool word =
+        g_regex_match_simple(i > 0 ? "^(?!.*(full|safe)).*(" FACTOR ")" : "[x*×] ?[0-9.,]+\\W*$",
+                             text, G_REGEX_CASELESS, 0);
+    if (known && word && sb_text_table_number_at(factor, number, table->dialect.decimal) > 0 &&
+        *factor != 1 && *factor != 0) {
+      return text;
+    }
+  }
+  return NULL;
+}
+
 // Writes the scale of a column to SI. A number before the unit may be a remark, and names and units
 // may differ: the key decides. False with an issue.
 static bool settle_unit(double *scale, const SbMeasured *m, const SbTextTable *table,
@@ -247,6 +275,9 @@ static bool settle_unit(double *scale, const SbMeasured *m, const SbTextTable *t
     both = g_strdup_printf("%s\n%s", unit, other);
   } else if (plain != unit) {
     doubt = g_strdup(", of which the number may be a remark");
+  } else {
+    const char *line = find_factor(&factor, table, m->column[c].at - 1, c);
+    doubt = line != NULL ? g_strdup_printf(", which \"%s\" may multiply", line) : NULL;
   }
   if (doubt == NULL) {
     return true;
