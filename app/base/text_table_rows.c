@@ -85,13 +85,15 @@ size_t sb_text_table_labelled(const SbTextTable *table, size_t line, int step) {
   return 0;
 }
 
-// Leaves out the last rows before line `number`, of a run of `run` rows, that have a label.
-static void leave_labelled(SbTextTableRows *out, const SbTextTable *table, size_t number,
-                           size_t run) {
+// Leaves out the last rows before line `number`, of a run of `run` rows, that have a label. Returns
+// 0.
+static size_t leave_labelled(SbTextTableRows *out, const SbTextTable *table, size_t number,
+                             size_t run) {
   const size_t labelled = run > 0 ? sb_text_table_labelled(table, number - 1, -1) : 0;
   for (size_t k = labelled; k > 0 && labelled < run; k--, out->rows--) {
     leave_line(out, (int)(number - k + 1), sb_text_table_line(table, number - k), false);
   }
+  return 0;
 }
 
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
@@ -101,15 +103,14 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
+  bool blank = false, cut = false, other = false;
   const size_t lines = table->file->line->len, room = MIN(lines + 1, SB_TEXT_TABLE_ROWS_MAX);
   size_t begun = 0, number = 0, run = 0; // blocks behind blank lines or names; of the line; rows
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
   }
-  bool blank = false, cut = false, other = false;
-  while (wrong == NULL && number < lines) {
-    Line line = {0};
+  for (Line line = {0}; wrong == NULL && number < lines; line = (Line){0}) {
     const GString *text = sb_text_table_line(table, number++);
     if (number <= table->header_lines) {
       if (sb_text_table_is_row(table, text)) {
@@ -135,15 +136,14 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
       run++;
       continue;
     }
-    leave_labelled(out, table, number - 1, run);
-    run = 0;
+    run = leave_labelled(out, table, number - 1, run);
     if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
       const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
       leave_line(out, (int)number, text, damaged);
     }
   }
-  leave_labelled(out, table, number, run);
+  leave_labelled(out, table, lines, run);
   for (size_t k = 0; k < count; k++) { // freed where its size becomes 0
     value[k] = g_renew(double, value[k], wrong == NULL ? MAX(out->rows, 1) : 0);
   }

@@ -320,7 +320,7 @@ static void test_matrix(void) {
   g_string_free(text, TRUE);
   text = matrix(spip, " ", '.', "0");
   g_string_truncate(text, text->len - 100);
-  assert_refused(text->str, text->len, &plain, "numbers where the header announces 20 x 17");
+  assert_refused(text->str, text->len, &plain, "where the header announces 20 x 17");
   g_string_free(text, TRUE);
 }
 
@@ -435,7 +435,32 @@ static void test_headers(void) {
   const struct {
     const char *header;
     char decimal;
-  } headers[] = {{german, ','}, {french, ','}, {factor, '.'}, {scale, '.'}};
+  } headers[] = {
+      {german, ','},
+      {french, ','},
+      {factor, '.'},
+      {scale, '.'},
+      {"Width: 10 um\nHeight: 34 um\nUnit: nm\n", '.'},
+      {"\"Breite\";\"10,0\";\"um\"\n\"H\xc3\xb6he\";\"34\";\"um\"\n\"Einheit\";\"nm\"\n", ','}};
+  // Lines that may be factors; lines that contradict the header.
+  static const char *const doubts[] = {"dz = 0.25",
+                                       "Zinc 0.25",
+                                       "Z step: 0.25 um",
+                                       "Sensitivity: 0.25 um/V",
+                                       "Data in 1/10 um",
+                                       "Unit: 0.1 um",
+                                       "Counts per um: 4000",
+                                       "Z\xe4\xbf\x82\xe6\x95\xb0: 0.25",
+                                       "Columns: 17\nRows: 20"};
+  for (size_t i = 0; i < G_N_ELEMENTS(doubts); i++) {
+    g_autofree char *header =
+        g_strdup_printf("%s\nX step: 0.5 um\nY step: 2 um\nZ unit: nm\n", doubts[i]);
+    GString *text = matrix(header, "\t", '.', "nan");
+    assert_refused(text->str, text->len, &plain,
+                   doubts[i][0] == 'C' && doubts[i][2] == 'l' ? "header announces 17 x 20"
+                                                              : "it is not clear whether");
+    g_string_free(text, TRUE);
+  }
   for (size_t i = 0; i < G_N_ELEMENTS(headers); i++) {
     GString *text = matrix(headers[i].header, "\t", headers[i].decimal, "nan");
     assert_text(text, &plain, &h);

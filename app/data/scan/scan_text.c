@@ -46,7 +46,8 @@ static void take_entry(GPtrArray *entries, const char *line, int number,
                   "(.+?) ([-+]?[0-9].*)|(.+?) (.*))$", NULL);
   g_autoptr(GRegex) forms = g_regex_new(form, 0, 0, NULL);
   g_autoptr(GMatchInfo) match = NULL;
-  if (!g_regex_match(forms, line, 0, &match)) {
+  g_autofree char *plain = *line == '"' ? g_strdelimit(g_strdup(line), "\"", ' ') : g_strdup(line);
+  if (!g_regex_match(forms, plain, 0, &match)) {
     return;
   }
   g_autofree char *key = g_match_info_fetch(match, 1);
@@ -284,6 +285,8 @@ static Header header_of(const Text *text) {
             : isfinite(find_entry(text, KEY_METRES, false)->number)                      ? 1
                                                                                          : 0;
   h.lateral = h.lateral > 0 ? h.lateral : h.usual;
+  h.vertical =
+      h.vertical > 0 ? h.vertical : sb_scan_length(find_entry(text, KEY_UNIT, false)->value);
   // A size may be one step more than the distance between the ends of a profile.
   const double columns = h.columns >= 1 ? h.columns : (double)matrix->columns;
   take_step(&h, text, 0, matrix->columns == 1 ? NAN : columns);
@@ -306,7 +309,8 @@ static bool take_factor(Header *h, SbScan *out, const Text *text, const SbScanCh
     } else if (!g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
       const bool perhaps = g_regex_match_simple(KEY_PERHAPS, entry->name, 0, 0);
       factor = g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
-      doubt = doubt == NULL && entry->number != 1 && perhaps ? entry : doubt;
+      doubt = doubt == NULL && perhaps && (entry->number != 1 || entry->value[1] == '/') ? entry
+                                                                                         : doubt;
     }
   }
   if (factor == NULL && doubt != NULL && choices->unit == 0) {
@@ -388,6 +392,21 @@ static bool take_numbers(SbScan *out, const Text *text, gsize first, gsize strid
   return good;
 }
 
+// Whether the lines are as the header announces, though numbers may go on in the next line.
+static bool check_sizes(const Header *h, const Text *text, bool announced, GError **error) {
+  const double columns = (double)text->matrix.columns, rows = (double)text->matrix.rows;
+  const int ragged = text->matrix.ragged;
+  if (!announced) {
+    return ragged == 0 ||
+           sb_app_error_input(error, "line %d has not %.0f numbers as the first", ragged, columns);
+  }
+  return (h->columns * h->rows == (double)text->matrix.value->len &&
+          (h->columns == h->rows || h->columns != rows || h->rows != columns)) ||
+         sb_app_error_input(
+             error, "%u numbers where the header announces %.0f x %.0f, in %.0f lines of %.0f",
+             text->matrix.value->len, h->columns, h->rows, rows, columns);
+}
+
 static bool read_entry_text(SbScan *out, Text *text, const SbScanChoices *choices, GError **error) {
   Header h = header_of(text);
   const Entry *title = find_entry(text, KEY_TITLE, false);
@@ -407,13 +426,8 @@ static bool read_entry_text(SbScan *out, Text *text, const SbScanChoices *choice
                 : columns == 2 ? "text, a profile x z"
                                : "text, a profile";
   const bool announced = matrix && h.columns >= 1 && h.rows >= 1;
-  if (announced && h.columns * h.rows != (double)text->matrix.value->len) {
-    return sb_app_error_input(error, "%u numbers where the header announces %.0f x %.0f",
-                              text->matrix.value->len, h.columns, h.rows);
-  }
-  if (!announced && text->matrix.ragged > 0) {
-    return sb_app_error_input(error, "line %d has not %zu numbers as the first",
-                              text->matrix.ragged, columns);
+  if (!check_sizes(&h, text, announced, error)) {
+    return false;
   }
   const char *placed = matrix ? positions(text, announced) : NULL;
   if (placed != NULL) {
