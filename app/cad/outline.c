@@ -38,20 +38,35 @@ static double deviation(const GArray *of, const GArray *from) {
   return largest;
 }
 
-// Appends the parts of `piece` above the axis; ends on it have y = 0 exactly.
+// Returns how far an arc dips below the axis between its ends; 0: by more than `gap`, it crosses
+// it.
+static double dip_of(const SbPiece *piece, double gap) {
+  const SbArc arc = piece->bulge != 0 ? sb_piece_arc(piece) : (SbArc){0};
+  const double dip = arc.radius - arc.centre[1];
+  double off, place = -1;
+  if (dip > 0 && dip <= gap) {
+    place = sb_piece_place(piece, arc.centre[0], -dip, &off);
+  }
+  return place > 0 && place < 1 ? dip : 0;
+}
+
+// Appends the parts of `piece` above the axis; ends on it have y = 0 exactly, where an arc that
+// would dip below it within the gap becomes tangent to it.
 static void clip(GArray *out, SbPiece piece, double gap) {
-  // A circle that touches the axis within the gap does not cross it.
-  const SbArc circle = piece.bulge != 0 ? sb_piece_arc(&piece) : (SbArc){0};
-  const double dip = circle.radius - circle.centre[1], up = dip > 0 && dip <= gap ? dip : 0;
-  piece.y0 = fabs(piece.y0 + up) <= gap ? 0 : piece.y0 + up;
-  piece.y1 = fabs(piece.y1 + up) <= gap ? 0 : piece.y1 + up;
+  piece.y0 = fabs(piece.y0) <= gap ? 0 : piece.y0;
+  piece.y1 = fabs(piece.y1) <= gap ? 0 : piece.y1;
+  const double dx = copysign(1, piece.bulge) * (piece.x1 - piece.x0), y = piece.y0 + piece.y1;
+  const bool touches = dip_of(&piece, gap) > 0;
+  if (touches && y > 0 && fmin(piece.y0, piece.y1) == 0) {
+    piece.bulge = copysign(y / (hypot(dx, y) + dx), piece.bulge);
+  }
   double at[4] = {0, 1, 1, 1}; // where the piece is cut, as parts of its length
   int cuts = 1;
   if (piece.bulge == 0 && piece.y0 * piece.y1 < 0) {
     at[cuts++] = piece.y0 / (piece.y0 - piece.y1);
   } else if (piece.bulge != 0) {
     const SbArc arc = sb_piece_arc(&piece);
-    const double half = up > 0 ? 0 : sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
+    const double half = touches ? 0 : sqrt(pow(arc.radius, 2) - pow(arc.centre[1], 2));
     for (int side = -1; side <= 1 && half > 0; side += 2) {
       double off;
       const double part = sb_piece_place(&piece, arc.centre[0] + side * half, 0, &off);
@@ -67,9 +82,9 @@ static void clip(GArray *out, SbPiece piece, double gap) {
   double from[2] = {piece.x0, piece.y0};
   for (int i = 1; i <= cuts; i++) {
     double to[2] = {piece.x1, piece.y1}, high = 0, place[2];
-    for (int k = 1; k <= 4; k++) { // its middle may touch the axis
+    for (int k = 0; k <= 4; k++) { // its middle may touch the axis
       sb_piece_point(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
-      high = k < 4 ? fmax(high, place[1]) : high;
+      high = fmax(high, place[1]);
     }
     if (i < cuts) {
       to[0] = place[0];
@@ -187,9 +202,18 @@ static void read_half(SbCadLines *half, const GPtrArray *entities, int side, dou
   for (guint i = 0; i < entities->len; i++) {
     const GArray *entity = entities->pdata[i];
     g_autoptr(GArray) above = g_array_new(FALSE, FALSE, sizeof(SbPiece));
+    g_autoptr(GArray) mirrored = g_array_copy(entities->pdata[i]);
+    SbPiece *piece = (SbPiece *)(void *)mirrored->data;
+    double up = 0; // a curve that dips below the axis within the gap touches it
     for (guint k = 0; k < entity->len; k++) {
-      const SbPiece p = g_array_index(entity, SbPiece, k);
-      clip(above, (SbPiece){p.x0, side * p.y0, p.x1, side * p.y1, side * p.bulge}, gap);
+      piece[k] = (SbPiece){piece[k].x0, side * piece[k].y0, piece[k].x1, side * piece[k].y1,
+                           side * piece[k].bulge};
+      up = fmax(up, dip_of(&piece[k], gap));
+    }
+    for (guint k = 0; k < entity->len; k++) {
+      piece[k].y0 += up;
+      piece[k].y1 += up;
+      clip(above, piece[k], gap);
     }
     const bool own = closes(entity, gap);
     if (own && above->len > 0 && is_known(known, above, same)) {

@@ -558,6 +558,33 @@ static void test_untidy(void) {
   }
 }
 
+// Ellipses that touch the axis with their long side, a corner of the curve anywhere: the arcs that
+// follow them dip below the axis.
+static void test_touching_ellipses(void) {
+  static const double half[][2] = {{4, 2}, {5, 3}, {9.7, 0.9}, {1.5, 0.5}, {0.65, 0.065}};
+  for (size_t i = 0; i < 4 * G_N_ELEMENTS(half); i++) {
+    const double a = half[i / 4][0], b = half[i / 4][1], start = 1.3 * (double)(i % 4);
+    const double off = i % 2 == 0 ? 0 : -0.3e-3;
+    g_autoptr(GString) dxf = drawing_begin(4);
+    drawing_put(dxf, 0, "ELLIPSE");
+    drawing_put(dxf, 10, "20");
+    drawing_put(dxf, 20, "%.15g", (i % 3 == 0 ? -1 : 1) * (b + off));
+    drawing_put(dxf, 11, "%.15g", a);
+    drawing_put(dxf, 21, "0");
+    drawing_put(dxf, 40, "%.15g", b / a);
+    drawing_put(dxf, 41, "%.15g", start);
+    drawing_put(dxf, 42, "%.15g", start + 2 * M_PI);
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    g_assert_cmpuint(cad->bodies->len, ==, 1);
+    const SbCadBody *body = cad->bodies->pdata[0];
+    g_assert_cmpstr(body->why, ==, NULL);
+    const double volume = 2 * M_PI * b * M_PI * a * b;
+    g_assert_cmpfloat_with_epsilon(1e9 * body->solid.volume / volume, 1,
+                                   1e-5 + 2 * (2e-4 - off) / b);
+  }
+}
+
 // All values of $INSUNITS, and a text whose lines end
 // in a carriage return alone.
 static void test_units(void) {
@@ -607,6 +634,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/halves", test_halves);
   g_test_add_func("/cad/many-pieces", test_many_pieces);
   g_test_add_func("/cad/untidy", test_untidy);
+  g_test_add_func("/cad/touching-ellipses", test_touching_ellipses);
   g_test_add_func("/cad/units", test_units);
   return g_test_run();
 }
