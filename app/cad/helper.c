@@ -56,10 +56,11 @@ static void check(int failed, const char *what) {
   }
 }
 
+typedef enum { ROUND, BALL, PLANE, OTHER } Kind; // of faces; the point of a ball is its centre
 typedef struct {
   double point[3], direction[3]; // mm
   double area;                   // of the faces about it
-  bool ball;                     // any direction: the point is a centre
+  Kind kind;
 } Axis;
 
 static void print_numbers(const char *word, const double *number, int count) {
@@ -86,7 +87,7 @@ static void nearest_point(Axis *axis, bool oriented) {
 
 // Samples of a face in each direction; singular values that are zero, relative to the largest; two
 // axes that are one: 1 - cosine of the angle, and distance [mm].
-enum { GRID = 5, SAMPLES = GRID * GRID, AXES_MAX = 500 };
+enum { GRID = 5, SAMPLES = GRID * GRID, AXES_MAX = 5000 };
 static const double ZERO = 1e-3, PARALLEL = 1e-8, SAME = 1e-3;
 
 // Writes points and unit normals of a face; returns whether the kernel gives them.
@@ -119,8 +120,8 @@ static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
 }
 
 // Writes the direction of an axis, and to `p` its point nearest to the centre or the centre of a
-// ball, from the last `count` columns of v[6][6] (d and m of a line). Returns `count`; 0: no axis.
-static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
+// ball, from the last `count` columns of v[6][6] (d and m of a line).
+static Kind axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
   double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
   for (int j = 6 - count; j < 6; j++) {
     const double d[3] = {v[j], v[6 + j], v[12 + j]}, m[3] = {v[18 + j], v[24 + j], v[30 + j]};
@@ -141,7 +142,7 @@ static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) 
     cross(p, axis->direction, moment);
     // Without a rotation, an extruded face; with a pitch, a thread.
     const bool turns = count == 2 || fabs(dot(axis->direction, moment)) < ZERO;
-    return sqrt(longest) > ZERO && turns ? count : 0;
+    return sqrt(longest) > ZERO && turns ? ROUND : OTHER;
   }
   double det[3], across[3];
   cross(det, gram[0], gram[1]);
@@ -150,17 +151,17 @@ static int axis_of_rows(Axis *axis, double p[3], const double v[36], int count) 
     cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
     p[k] = dot(across, sum) / whole;
   }
-  return whole > ZERO ? 3 : 0; // of a plane all rotations have one direction
+  return whole > ZERO ? BALL : PLANE; // all rotations of a plane have one direction
 }
 
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
 // the null space of this linear system (the line complex of the normals: H. Pottmann, J. Wallner,
-// Computational Line Geometry, Springer 2001, section 3.4). Returns its dimension: 1 for a face of
-// revolution, 2 for a cylinder, 3 for a ball (its centre is the point); 0 for others, as a plane.
-static int axis_of(Axis *axis, int tag) {
+// Computational Line Geometry, Springer 2001, section 3.4). Its dimension is 1 for a face of
+// revolution, 2 for a cylinder, 3 for a ball or a plane; others are not changed.
+static void axis_of(Axis *axis, int tag) {
   double q[SAMPLES][3], n[SAMPLES][3], centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
   if (!sample(q, n, tag)) {
-    return 0;
+    return;
   }
   for (int i = 0; i < 3 * SAMPLES; i++) {
     centre[i % 3] += q[i / 3][i % 3] / SAMPLES;
@@ -182,46 +183,41 @@ static int axis_of(Axis *axis, int tag) {
   gsl_vector_view values = gsl_vector_view_array(s, 6), work = gsl_vector_view_array(w, 6);
   if (!(size > 0) ||
       gsl_linalg_SV_decomp(&all.matrix, &cols.matrix, &values.vector, &work.vector) != 0) {
-    return 0;
+    return;
   }
   int count = 0;
   while (count < 4 && s[5 - count] <= ZERO * s[0]) {
     count++;
   }
-  if (count == 0 || count > 3) {
-    return 0;
-  }
-  double p[3];
-  count = axis_of_rows(axis, p, v, count);
+  double p[3] = {0};
+  axis->kind = count == 0 || count > 3 ? OTHER : axis_of_rows(axis, p, v, count);
   for (int k = 0; k < 3; k++) {
     axis->point[k] = centre[k] + size * p[k];
   }
-  return count;
 }
 
-static double apart(const double a[3], const Axis *axis) {
-  const double d[3] = {a[0] - axis->point[0], a[1] - axis->point[1], a[2] - axis->point[2]};
-  double off[3];
-  cross(off, d, axis->direction);
-  return sqrt(dot(off, off));
+// Distance of two axes, centres of balls, or planes of one direction, which is 0 [mm].
+static double apart(const Axis *a, const Axis *b) {
+  double d[3], off[3];
+  for (int k = 0; k < 3; k++) {
+    d[k] = a->kind != PLANE ? a->point[k] - b->point[k] : 0;
+  }
+  cross(off, d, b->direction);
+  return sqrt(a->kind == ROUND ? dot(off, off) : dot(d, d));
 }
 
 // Adds the area of a face to those about its axis.
-static void count_face(Axis *axes, int *count, int tag, const double wish[3]) {
-  Axis axis = {.ball = false};
+static void count_face(Axis *axes, int *count, int tag) {
+  Axis axis = {.kind = OTHER};
   int k = 0, ierr;
-  const int found = axis_of(&axis, tag);
-  axis.ball = found == 3;
+  axis_of(&axis, tag);
   gmshModelOccGetMass(2, tag, &axis.area, &ierr);
-  if (found == 0 || ierr != 0) {
+  if (axis.kind == OTHER || ierr != 0) {
     return;
   }
-  for (int j = 0; axis.ball && j < 3; j++) {
-    axis.direction[j] = isnan(wish[0]) ? j == 0 : wish[j];
-  }
-  while (k < *count && (axes[k].ball != axis.ball ||
-                        fabs(dot(axes[k].direction, axis.direction)) < 1 - PARALLEL ||
-                        apart(axis.point, &axes[k]) > SAME)) {
+  while (k < *count &&
+         (axes[k].kind != axis.kind || apart(&axis, &axes[k]) > SAME ||
+          (axis.kind != BALL && fabs(dot(axes[k].direction, axis.direction)) < 1 - PARALLEL))) {
     k++;
   }
   if (k == *count && k < AXES_MAX) {
@@ -231,9 +227,14 @@ static void count_face(Axis *axes, int *count, int tag, const double wish[3]) {
   }
 }
 
+static bool is_better(const Axis *a, const Axis *than) {
+  return a->kind != than->kind ? a->kind < than->kind : a->area > than->area;
+}
+
 // Finds the axis that most area of the round faces turns about, of those along `direction` if that
-// is given; without one that of the largest ball; without one the centre of mass if a direction or
-// a point is given. A given point replaces the one found.
+// is given; without one that through the centre of the largest ball and that of another one, or
+// else at right angles to the largest plane, or else along x; without a ball that through the
+// centre of mass if a direction or a point is given. A given point replaces the one found.
 static bool find_axis(Axis *best, const int *bodies, size_t count, const double direction[3],
                       const double through[3]) {
   static Axis axes[AXES_MAX];
@@ -243,14 +244,23 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
   gmshModelGetEntities(&faces, &face_count, 2, &ierr);
   check(ierr, "the file's faces cannot be listed");
   for (size_t i = 0; i + 1 < face_count; i += 2) {
-    count_face(axes, &found, faces[i + 1], direction);
+    count_face(axes, &found, faces[i + 1]);
   }
   gmshFree(faces);
-  *best = (Axis){.ball = true};
-  for (int k = 0; k < found; k++) {
-    const bool fits = !directed || fabs(dot(axes[k].direction, direction)) >= 1 - PARALLEL;
-    const bool better = axes[k].ball == best->ball ? axes[k].area > best->area : best->ball;
-    *best = fits && better ? axes[k] : *best;
+  const Axis none = {.kind = OTHER}, *first = &none, *next = &none;
+  for (const Axis *own = axes; own < axes + found; own++) {
+    const bool fits = !directed || fabs(dot(own->direction, direction)) >= 1 - PARALLEL;
+    first = (fits || own->kind != ROUND) && is_better(own, first) ? own : first;
+  }
+  for (const Axis *own = axes; own < axes + found; own++) {
+    next = own != first && own->kind != ROUND && is_better(own, next) ? own : next;
+  }
+  *best = first->kind <= BALL ? *first : (Axis){.area = 0};
+  for (int k = 0; best->kind == BALL && k < 3; k++) {
+    const double way = (next->point[k] - first->point[k]) / apart(first, next);
+    best->direction[k] = next->kind == BALL    ? way
+                         : next->kind == PLANE ? next->direction[k]
+                                               : k == 0;
   }
   double mass = 0;
   for (size_t i = 0; best->area == 0 && (directed || pointed) && i < count; i += 2) {

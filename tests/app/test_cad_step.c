@@ -265,6 +265,32 @@ static void test_ball(void) {
   assert_choice(sb_app_error_choice(error), error->message, "axis", "x\ny\nz");
 }
 
+// Balls and planes only, turned: half a ball, and a lens of two; the axis is that of the body.
+static void test_ball_axis(void) {
+  for (int kind = 0; kind < 2; kind++) {
+    begin();
+    int ierr, *out;
+    size_t count;
+    int body[2] = {3, gmshModelOccAddSphere(0, 0, 0, 2, -1, kind == 0 ? 0 : -M_PI / 2, M_PI / 2,
+                                            2 * M_PI, &ierr)};
+    if (kind == 1) {
+      int ball[2] = {3,
+                     gmshModelOccAddSphere(0, 0, 3, 2, -1, -M_PI / 2, M_PI / 2, 2 * M_PI, &ierr)};
+      gmshModelOccIntersect(body, 2, ball, 2, &out, &count, NULL, NULL, NULL, -1, 1, 1, &ierr);
+      body[1] = out[1];
+      gmshFree(out);
+    }
+    gmshModelOccRotate(body, 2, 0, 0, 0, 1, 0, 0, -0.5, &ierr);
+    g_assert_cmpint(ierr, ==, 0);
+    g_autoptr(SbCad) cad = read_through_file("ball.step", &(SbCadChoices){0});
+    finish();
+    const SbCadBody *read = cad->bodies->pdata[0];
+    g_assert_cmpstr(cad->axis, ==, "through 0, 0, 0 mm along 0, 0.479426, 0.877583");
+    g_assert_cmpfloat_with_epsilon(read->revolved.volume / read->solid.volume, 1, 1e-6);
+    g_assert_cmpuint(cad->warnings->len, ==, 0);
+  }
+}
+
 // Not there, not STEP, cut short, of no solid, and lengths that no double holds.
 static void test_broken(void) {
   begin();
@@ -346,6 +372,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad-step/port", test_port);
   g_test_add_func("/cad-step/splines", test_splines);
   g_test_add_func("/cad-step/ball", test_ball);
+  g_test_add_func("/cad-step/ball-axis", test_ball_axis);
   g_test_add_func("/cad-step/broken", test_broken);
   g_test_add_func("/cad-step/limit", test_limit);
   const int code = g_test_run();
