@@ -289,7 +289,8 @@ static bool read_file(Drawing *drawing, GError **error) {
                              "is neither a STEP file (ISO 10303-21) nor a DXF: it has no section"));
 }
 
-// Finds the axis of the bodies and returns the map that makes it the line y = 0.
+// Finds the axis of the bodies and returns the map that makes it the line y = 0. Warns of the
+// longest centre line that is not on it, as of another view.
 static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
   double longest = 0, along[3] = {1, 0, 0}, at[3] = {0};
   const bool found = choices->axis == NULL && choices->through == NULL && !choices->section;
@@ -316,7 +317,24 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
   const double point[3] = {at[0] - foot * c, at[1] - foot * s, 0};
   g_autofree char *text = sb_cad_axis_text(point, along);
   cad->axis = g_strconcat(text, longest > 0 ? " (the longest centre line)" : "", NULL);
-  return (SbDxfMap){c, s, 0, -s, c, point[0] * s - point[1] * c};
+  const SbDxfMap way = {c, s, 0, -s, c, point[0] * s - point[1] * c};
+  const SbPiece *other = NULL;
+  for (guint i = 0; found && i < drawing->centre->len; i++) {
+    const SbPiece *line = &g_array_index(drawing->centre, SbPiece, i);
+    const SbPiece there = sb_dxf_place(&way, line);
+    const bool off = fmax(fabs(there.y0), fabs(there.y1)) > GAP;
+    other = off && (other == NULL || sb_piece_length(line) > sb_piece_length(other)) ? line : other;
+  }
+  if (other != NULL) {
+    g_autofree char *where =
+        sb_cad_axis_text((double[]){other->x0, other->y0, 0},
+                         (double[]){other->x1 - other->x0, other->y1 - other->y0, 0});
+    sb_note_add(cad->warnings,
+                "another centre line is %s: what is drawn about it is read as if about the axis "
+                "(the options axis and through select that line)",
+                where);
+  }
+  return way;
 }
 
 static void left_out(SbCad *cad, const Drawing *drawing) {
