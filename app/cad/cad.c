@@ -176,12 +176,18 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
     double(*const moment)[3] = body->solid.inertia;
     const double apart = hypot(moment[1][1] - moment[2][2], 2 * moment[1][2]);
     const double uneven = apart / (moment[1][1] + moment[2][2]);
-    const double more = body->profile->len > 0 ? body->revolved.volume / body->solid.volume - 1 : 0;
-    if (body->measured && (uneven > ROUND || fabs(more) > ROUND)) {
+    const double volume = body->solid.volume, more = body->revolved.volume / volume - 1;
+    const double least = fmin(fabs(more), fabs(more - body->within / volume)); // ports, or a cavity
+    if (body->measured && uneven > ROUND) {
+      sb_note_add(
+          cad->warnings,
+          "%s: not a body of revolution about the axis: its moments across it differ by %.3g %%",
+          body->name, 100 * uneven);
+    } else if (body->measured && body->profile->len > 0 && least > ROUND) {
       sb_note_add(cad->warnings,
-                  "%s: not a body of revolution: its moments across the axis differ by %.3g %%, "
-                  "and its half-section, revolved, has %.3g %% %s volume",
-                  body->name, 100 * uneven, 100 * fabs(more), more < 0 ? "less" : "more");
+                  "%s: not a body of revolution about the axis: its half-section, revolved, has "
+                  "%.3g %% %s volume",
+                  body->name, 100 * fabs(more), more < 0 ? "less" : "more");
     }
   }
   join_outline_cavities(cad);

@@ -44,6 +44,7 @@ typedef struct {
   GArray *alone;       // of SbPiece: they begin at an end that meets no other
   guint doubled;       // pieces drawn twice, of which one is ignored
   guint inner;         // pieces within an outline, which are ignored
+  guint crossed;       // pieces of closed entities that bound nothing: they cross themselves
 } SbCadLines;
 
 // Appends the outlines of the pieces (of SbPiece) of closed entities, above the axis and closed

@@ -261,6 +261,10 @@ static void note_half(SbCad *cad, const char *name, const SbCadLines *half, cons
     sb_note_add(cad->warnings, "%s: %u piece%s drawn twice: left out", name, half->doubled,
                 half->doubled > 1 ? "s" : "");
   }
+  if (half->crossed > 0) {
+    sb_note_add(cad->warnings, "%s: a closed line of %u pieces crosses itself or encloses no area",
+                name, half->crossed);
+  }
   if (half->inner > 0) {
     sb_note_add(cad->warnings, "%s: %u line%s within the outline, read as no bore or cavity", name,
                 half->inner, half->inner > 1 ? "s" : "");
@@ -269,7 +273,11 @@ static void note_half(SbCad *cad, const char *name, const SbCadLines *half, cons
       half->pieces->len > 0 && other->pieces->len > 0
           ? fmax(deviation(half->pieces, other->pieces), deviation(other->pieces, half->pieces))
           : 0;
-  if (apart > fmax(2 * gap, HALVES)) {
+  if (apart > 0 && half->outlines->len != other->outlines->len) {
+    sb_note_add(cad->warnings,
+                "%s: outlines above and below the axis: %u and %u; those above are used", name,
+                half->outlines->len, other->outlines->len);
+  } else if (apart > fmax(2 * gap, HALVES)) {
     sb_note_add(cad->warnings,
                 "%s: the halves above and below the axis differ by up to %s mm: that above is used",
                 name, sb_number_round(number, 1e3 * apart, 3));
@@ -290,8 +298,8 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
   SbCadLines half[2] = {0};
   read_half(&half[0], entities, 1, gap);
   read_half(&half[1], entities, -1, gap);
-  const int used =
-      half[0].outlines->len == 0 && (half[1].outlines->len > 0 || half[0].alone->len == 0);
+  const int used = half[0].outlines->len == 0 &&
+                   (half[1].outlines->len > 0 || half[0].alone->len + half[0].crossed == 0);
   note_half(cad, name, &half[used], &half[1 - used], gap);
   for (guint i = 0; i < half[used].outlines->len && cad->bodies->len < SB_CAD_BODIES_MAX; i++) {
     const SbCadOutline *outline = half[used].outlines->pdata[i];
@@ -330,12 +338,16 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
     body->why = body->why != NULL ? body->why : g_strdup(why);
     return;
   }
-  if (count > 1 || best->measured) {
-    sb_note_add(cad->warnings,
-                "%s: cut into %u pieces or hollow inside; the largest outline is its profile",
+  if (count > 1) {
+    sb_note_add(cad->warnings, "%s: cut into %u pieces; the largest one is its half-section",
                 body->name, count);
+  }
+  if (best->measured) {
+    sb_note_add(cad->warnings, "%s: its half-section leaves out a cavity or port within it",
+                body->name);
   }
   g_array_append_vals(body->profile, best->profile->data, best->profile->len);
   body->closed = best->closed;
   body->revolved = best->revolved;
+  body->within = best->revolved.volume - best->solid.volume;
 }

@@ -73,9 +73,10 @@ static void print_body(const SbCadBody *body, guint number, const int *chosen) {
          part != NULL ? part : "", part != NULL ? ")" : "");
   char volume[SB_NUMBER_SIZE], share[SB_NUMBER_SIZE], x[3][SB_NUMBER_SIZE];
   if (body->measured || body->profile->len > 0) {
-    g_autofree char *text = g_strdup_printf("%s mm3, centre at %s mm",
-                                            sb_number_round(volume, 1e9 * body->solid.volume, 6),
-                                            sb_number_round(x[0], 1e3 * body->solid.centre[0], 5));
+    g_autofree char *text = g_strdup_printf(
+        "%s mm3, centre at %s mm", sb_number_round(volume, 1e9 * body->solid.volume, 6),
+        sb_number_round(x[0], fabs(body->solid.centre[0]) < 1e-12 ? 0 : 1e3 * body->solid.centre[0],
+                        5));
     sb_cli_line("Volume", text);
   }
   if (body->profile->len == 0) {
@@ -84,9 +85,9 @@ static void print_body(const SbCadBody *body, guint number, const int *chosen) {
     return;
   }
   const double off = body->revolved.volume / body->solid.volume - 1;
-  g_autofree char *section =
-      g_strdup_printf("%u points; revolved it has %s %% %s volume", body->profile->len,
-                      sb_number_round(share, 100 * fabs(off), 2), off < 0 ? "less" : "more");
+  g_autofree char *section = g_strdup_printf(
+      "%u points; revolved it has %s %% %s volume", body->profile->len,
+      sb_number_round(share, fabs(off) < 5e-7 ? 0 : 100 * fabs(off), 3), off < 0 ? "less" : "more");
   sb_cli_line("Half-section", section);
   for (guint i = 0; i < body->features->len; i++) {
     const SbCadFeature *f = &g_array_index(body->features, SbCadFeature, i);
