@@ -42,6 +42,11 @@ static bool name_fits(const char *name, SbChannel channel) {
   return g_regex_match_simple(channels[channel].words, spaced, G_REGEX_CASELESS, 0);
 }
 
+static bool is_known(const char *name) {
+  return name_fits(name, SB_CHANNEL_TIME) || name_fits(name, SB_CHANNEL_DISPLACEMENT) ||
+         name_fits(name, SB_CHANNEL_FORCE);
+}
+
 // Returns the unit without a number before it ("x10 N", "0.1 s"), which is *factor; else 1.
 static const char *skip_factor(double *factor, const char *unit) {
   const char *c = unit + strspn(unit, "x*\xc3\x97 ");
@@ -107,9 +112,7 @@ static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
   const bool clock = column->clock && channel == SB_CHANNEL_TIME;
   double scale;
   const bool kind = clock || unit_scale(&scale, column->unit, channel);
-  const bool known = name_fits(column->name, SB_CHANNEL_TIME) ||
-                     name_fits(column->name, SB_CHANNEL_DISPLACEMENT) ||
-                     name_fits(column->name, SB_CHANNEL_FORCE);
+  const bool known = is_known(column->name);
   return !column->numeric && !clock          ? FIT_NONE
          : !name_fits(column->name, channel) ? (kind && !known ? FIT_UNIT : FIT_NUMBER)
          : kind                              ? FIT_NAME_UNIT
@@ -235,7 +238,7 @@ static const char *find_factor(double *factor, const SbTextTable *table, size_t 
   const char *text = table->column[at].name;
   for (size_t i = 0; text != NULL; text = table->header[i++]) {
     g_auto(GStrv) cells = g_strsplit_set(text, table->dialect.separator == ',' ? ",;" : ";|", -1);
-    const bool each = i > 0 && g_strv_length(cells) == table->columns && !name_fits(text, c);
+    const bool each = i > 0 && g_strv_length(cells) == table->columns && !is_known(text);
     const char *cell = each ? cells[at] : text;
     const bool known = i == 0 || each || name_fits(text, c) ||
                        (c == SB_CHANNEL_FORCE &&
