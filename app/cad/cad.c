@@ -178,16 +178,12 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
     const double uneven = apart / (moment[1][1] + moment[2][2]);
     const double volume = body->solid.volume, more = body->revolved.volume / volume - 1;
     const double least = fmin(fabs(more), fabs(more - body->within / volume)); // ports, or a cavity
-    if (body->measured && uneven > ROUND) {
-      sb_note_add(
-          cad->warnings,
-          "%s: not a body of revolution about the axis: its moments across it differ by %.3g %%",
-          body->name, 100 * uneven);
-    } else if (body->measured && body->profile->len > 0 && least > ROUND) {
-      sb_note_add(cad->warnings,
-                  "%s: not a body of revolution about the axis: its half-section, revolved, has "
-                  "%.3g %% %s volume",
-                  body->name, 100 * fabs(more), more < 0 ? "less" : "more");
+    const bool turns = body->profile->len == 0 || least <= ROUND;
+    if (body->measured && (uneven > ROUND || !turns)) {
+      sb_note_add(cad->warnings, "%s: not a body of revolution about the axis: %s by %.3g %%",
+                  body->name,
+                  turns ? "its moments across it differ" : "its half-section, revolved, is off",
+                  100 * (turns ? uneven : fabs(more)));
     }
   }
   join_outline_cavities(cad);

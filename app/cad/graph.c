@@ -310,7 +310,6 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
 void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, double same) {
   g_autoptr(GArray) edges = tidied(pieces, same);
   const guint before = half->outlines->len;
-  guint used = 0;
   for (guint i = edges->len; i-- > 0;) {
     if (g_array_index(edges, Drawn, i).times % 2 == 0) {
       g_array_remove_index(edges, i);
@@ -323,10 +322,7 @@ void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, doubl
     g_array_unref(edges);
     edges = inner;
   }
-  for (guint i = before; i < half->outlines->len; i++) {
-    used += ((SbCadOutline *)half->outlines->pdata[i])->chain->len;
-  }
-  half->crossed += half->alone->len == 0 ? all - used : 0;
+  half->crossed += half->outlines->len + half->alone->len == before ? all : 0;
 }
 
 void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double same) {

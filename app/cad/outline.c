@@ -338,13 +338,10 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
     body->why = body->why != NULL ? body->why : g_strdup(why);
     return;
   }
-  if (count > 1) {
-    sb_note_add(cad->warnings, "%s: cut into %u pieces; the largest one is its half-section",
-                body->name, count);
-  }
-  if (best->measured) {
-    sb_note_add(cad->warnings, "%s: its half-section leaves out a cavity or port within it",
-                body->name);
+  if (count > 1 || best->measured) {
+    sb_note_add(cad->warnings, "%s: %s", body->name,
+                count > 1 ? "cut into several pieces; the largest one is its half-section"
+                          : "its half-section leaves out a cavity or port within it");
   }
   g_array_append_vals(body->profile, best->profile->data, best->profile->len);
   body->closed = best->closed;

@@ -558,6 +558,41 @@ static void test_untidy(void) {
   }
 }
 
+// A second view with its own centre line, an end view beside a half one, and a closed line that
+// crosses itself are named.
+static void test_named(void) {
+  static const char *const said[] = {"another centre line is through -5, 50, 0 mm along 1, 0, 0",
+                                     "outlines above and below the axis: 2 and 1",
+                                     "crosses itself"};
+  for (int kind = 0; kind < 3; kind++) {
+    g_autoptr(GString) dxf = drawing_begin(4);
+    put_rectangle(dxf, "part", (double[4]){0, 0, 10, 3});
+    for (int i = 0; kind == 0 && i < 2; i++) {
+      put_rectangle(dxf, "part", (double[4]){0, 50, 10, 53});
+      drawing_line(dxf, "Mittellinie", -5, 50 * i, 15 + (i == 0), 50 * i);
+    }
+    if (kind == 1) {
+      put_rectangle(dxf, "part", (double[4]){20, -3, 30, 3});
+    } else if (kind == 2) {
+      static const double corner[4][2] = {{20, 1}, {22, 3}, {22, 1}, {20, 3}};
+      drawing_put(dxf, 0, "LWPOLYLINE");
+      drawing_put(dxf, 8, "other");
+      drawing_put(dxf, 70, "1");
+      for (int i = 0; i < 4; i++) {
+        drawing_put(dxf, 10, "%g", corner[i][0]);
+        drawing_put(dxf, 20, "%g", corner[i][1]);
+      }
+    }
+    drawing_end(dxf);
+    g_autoptr(SbCad) cad = drawing_parse(dxf, &(SbCadChoices){0});
+    bool found = false;
+    for (guint i = 0; i < cad->warnings->len; i++) {
+      found = found || strstr(cad->warnings->pdata[i], said[kind]) != NULL;
+    }
+    g_assert_true(found);
+  }
+}
+
 // Ellipses that touch the axis with their long side, a corner of the curve anywhere: the arcs that
 // follow them dip below the axis.
 static void test_touching_ellipses(void) {
@@ -634,6 +669,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad/halves", test_halves);
   g_test_add_func("/cad/many-pieces", test_many_pieces);
   g_test_add_func("/cad/untidy", test_untidy);
+  g_test_add_func("/cad/named", test_named);
   g_test_add_func("/cad/touching-ellipses", test_touching_ellipses);
   g_test_add_func("/cad/units", test_units);
   return g_test_run();

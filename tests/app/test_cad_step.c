@@ -274,9 +274,16 @@ static void test_ball_axis(void) {
     int body[2] = {3, gmshModelOccAddSphere(0, 0, 0, 2, -1, kind == 0 ? 0 : -M_PI / 2, M_PI / 2,
                                             2 * M_PI, &ierr)};
     if (kind == 1) {
+      int **map;
+      size_t *map_n, maps;
       int ball[2] = {3,
                      gmshModelOccAddSphere(0, 0, 3, 2, -1, -M_PI / 2, M_PI / 2, 2 * M_PI, &ierr)};
-      gmshModelOccIntersect(body, 2, ball, 2, &out, &count, NULL, NULL, NULL, -1, 1, 1, &ierr);
+      gmshModelOccIntersect(body, 2, ball, 2, &out, &count, &map, &map_n, &maps, -1, 1, 1, &ierr);
+      for (size_t i = 0; i < maps; i++) {
+        gmshFree(map[i]);
+      }
+      gmshFree(map);
+      gmshFree(map_n);
       body[1] = out[1];
       gmshFree(out);
     }
