@@ -321,8 +321,8 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
   const SbPiece *other = NULL;
   for (guint i = 0; found && i < drawing->centre->len; i++) {
     const SbPiece *line = &g_array_index(drawing->centre, SbPiece, i);
-    const SbPiece there = sb_dxf_place(&way, line);
-    const bool off = fmax(fabs(there.y0), fabs(there.y1)) > GAP;
+    const SbPiece to = sb_dxf_place(&way, line);
+    const bool off = fmax(fabs(to.y0), fabs(to.y1)) > GAP;
     other = off && (other == NULL || sb_piece_length(line) > sb_piece_length(other)) ? line : other;
   }
   if (other != NULL) {
@@ -330,8 +330,8 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
         sb_cad_axis_text((double[]){other->x0, other->y0, 0},
                          (double[]){other->x1 - other->x0, other->y1 - other->y0, 0});
     sb_note_add(cad->warnings,
-                "another centre line is %s: what is drawn about it is read as if about the axis "
-                "(the options axis and through select that line)",
+                "another centre line is %s: what is drawn about it is not measured about it "
+                "(axis and through select it)",
                 where);
   }
   return way;

@@ -43,10 +43,9 @@ static double deviation(const GArray *of, const GArray *from) {
 static double dip_of(const SbPiece *piece, double gap) {
   const SbArc arc = piece->bulge != 0 ? sb_piece_arc(piece) : (SbArc){0};
   const double dip = arc.radius - arc.centre[1];
-  double off, place = -1;
-  if (dip > 0 && dip <= gap) {
-    place = sb_piece_place(piece, arc.centre[0], -dip, &off);
-  }
+  double off;
+  const double place =
+      dip > 0 && dip <= gap ? sb_piece_place(piece, arc.centre[0], -dip, &off) : -1;
   return place > 0 && place < 1 ? dip : 0;
 }
 
