@@ -10,8 +10,8 @@
 //
 // The errors of the terms are added at their worst. They include discretisation and iteration, not
 // the choice of the model.
-#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_errors.h"
+#include "engine/valve/figures/figures.h"
 #include "engine/valve/run/run_private.h"
 
 #include <math.h>
