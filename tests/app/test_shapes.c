@@ -242,8 +242,9 @@ static void test_override(void) {
   g_assert_cmpuint(notes->len, ==, 3); // the stem differs from its shape, and no longer stays
   g_autoptr(GPtrArray) left = sb_issues_new();
   sb_document_kept(document, left);
-  g_assert_cmpuint(left->len, ==, 1);
+  g_assert_cmpuint(left->len, ==, 2);
   g_assert_cmpstr(((const SbIssue *)left->pdata[0])->key, ==, "bore.entry_diameter");
+  g_assert_cmpstr(((const SbIssue *)left->pdata[1])->key, ==, "stem.chamber_length");
 }
 
 // A text that stands alone keeps the shapes, so that a picture opened again draws them.
