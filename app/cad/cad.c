@@ -177,7 +177,7 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
     const double apart = hypot(moment[1][1] - moment[2][2], 2 * moment[1][2]);
     const double uneven = apart / (moment[1][1] + moment[2][2]);
     const double volume = body->solid.volume, more = body->revolved.volume / volume - 1;
-    const double least = fmin(fabs(more), fabs(more - body->within / volume)); // ports, or a cavity
+    const double least = fmin(fabs(more), fabs(more - body->hollow / volume)); // ports, or a cavity
     const bool turns = body->profile->len == 0 || least <= ROUND;
     if (body->measured && (uneven > ROUND || !turns)) {
       sb_note_add(cad->warnings, "%s: not a body of revolution about the axis: %s by %.3g %%",

@@ -43,7 +43,7 @@ typedef struct {
   bool closed;      // as SbProfile.closed
   char *why;        // why the profile is empty; else NULL
   SbSolid revolved; // of the revolved half-section, with a density of 1 kg/m3
-  double within;    // volume of what is hollow within a section and not in the profile [m3]
+  double hollow;    // volume of the cavities that the half-section shows, not in the profile [m3]
   bool measured;    // `solid` is from the file's geometry: a STEP body, an STL, a DXF with cavities
   guint layer;      // equal for the outlines of one layer or section
   SbSolid solid;    // of the body with a density of 1 kg/m3, its axis along x; else as `revolved`

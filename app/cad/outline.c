@@ -345,5 +345,5 @@ void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
   g_array_append_vals(body->profile, best->profile->data, best->profile->len);
   body->closed = best->closed;
   body->revolved = best->revolved;
-  body->within = best->revolved.volume - best->solid.volume;
+  body->hollow = best->revolved.volume - best->solid.volume;
 }

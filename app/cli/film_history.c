@@ -120,7 +120,8 @@ SbStatus sb_film_history_follow(SbResultsHistory *out, const SbFilmProblem *prob
 
 SbStatus sb_film_history_content(SbResultsContent *out, const SbFilmProblem *problem, double u,
                                  SbReport *report) {
-  const SbContentProblem memory = {.film = *problem, .speed_scale = fabs(problem->speed)};
+  SbContentProblem memory = {.film = *problem};
+  memory.film.speed = 0;
   SbContent *content = NULL;
   SbStatus status = sb_content_create(&content, &memory, report);
   if (status == SB_OK) {

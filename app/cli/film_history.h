@@ -33,8 +33,8 @@ SB_CHECKED bool sb_film_history_read_content(double *out, const SbFilmProblem *p
 SbStatus sb_film_history_follow(SbResultsHistory *out, const SbFilmProblem *problem,
                                 const SbModelSeries *series, SbReport *report);
 
-// Computes the contact of `problem` with the content `u` [m] everywhere. Errors of
-// sb_content_create().
+// Computes the contact of `problem` at rest with the content `u` [m] everywhere: without the shear
+// of the fluid. Errors of sb_content_create().
 SbStatus sb_film_history_content(SbResultsContent *out, const SbFilmProblem *problem, double u,
                                  SbReport *report);
 

@@ -1,5 +1,7 @@
 #include "engine/film/content.h"
 
+#include "engine/film/scale.h"
+
 #include <gsl/gsl_spline.h>
 #include <math.h>
 #include <stdlib.h>
@@ -201,9 +203,9 @@ static void fill(const SbContent *c, Cells *cells, int count, double u) {
 // Hertz's contact and the integral of its real area, by the trapezoidal rule over theta, x = b sin
 // theta, where p is the peak times cos theta.
 static void set_dry_contact(SbContent *c) {
-  const SbFilmProblem *film = &c->film;
-  c->b = sqrt(8 * film->load * film->radius / (M_PI * film->modulus));
-  c->peak = 2 * film->load / (M_PI * c->b);
+  const SbFilmScale scale = sb_film_scale(&c->film);
+  c->b = scale.half_width;
+  c->peak = scale.pressure;
   double before = 0;
   for (int i = 0; i < PLACES; i++) {
     const double p = c->peak * cos(steepest * (2.0 * i / (PLACES - 1) - 1));
@@ -244,7 +246,8 @@ static SbStatus solve_steady(SbContent *c, SbReport *report) {
     return status;
   }
   const int count = STEADY_MOST - first;
-  // Error of the table: that of one with every second film, a fourth of it by its order.
+  // Error of the table: a quarter of that of one with every second film. By the order of cubic
+  // splines it is a sixteenth, but a table of a few films may not have reached that order.
   gsl_spline *coarse = gsl_spline_alloc(gsl_interp_cspline, (size_t)(count + 1) / 2);
   c->steady = gsl_spline_alloc(gsl_interp_cspline, (size_t)count);
   if (c->steady == NULL || coarse == NULL) {
@@ -301,7 +304,7 @@ SbStatus sb_content_create(SbContent **out, const SbContentProblem *problem, SbR
   if (status == SB_OK) {
     c->closed = sb_rough_law_closed_gap(&c->law);
     set_dry_contact(c);
-    status = solve_steady(c, report);
+    status = c->scale > 0 ? solve_steady(c, report) : sb_succeed(report);
   }
   if (status != SB_OK) {
     sb_content_destroy(c);
@@ -352,7 +355,7 @@ SbContentResult sb_content_result(const SbContent *content) {
 }
 
 SbContentResult sb_content_uniform(const SbContent *content, double u) {
-  SbContentResult sum = {.least = INFINITY};
+  SbContentResult sum = {.least = INFINITY, .error_mean = NAN, .error_friction = NAN};
   add_cell(&sum, content, -content->b, content->b, u);
   sum.friction += copysign(content->film.shear_strength * sum.real_area, content->speed);
   return sum;

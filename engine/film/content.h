@@ -35,7 +35,7 @@
 // wall to +x, as in film.h.
 typedef struct {
   SbFilmProblem film;
-  double speed_scale; // largest |speed| that will occur [m/s] > 0
+  double speed_scale; // largest |speed| that will occur [m/s]; 0: the contact stays at rest
 } SbContentProblem;
 
 // Values of a contact.
@@ -45,18 +45,18 @@ typedef struct {
   double friction;
   double real_area; // integral over x of the fraction of real contact area [m]
   // Relative error estimates of mean content and friction. They cover the cells and steps (compared
-  // with cells twice as wide) and the table of steady films, not the error of the model. 0 of
-  // sb_content_uniform().
+  // with cells twice as wide) and the table of steady films, not the error of the model. NaN of
+  // sb_content_uniform(), which computes none.
   double error_mean, error_friction;
 } SbContentResult;
 
 // A contact with its memory.
 typedef struct SbContent SbContent;
 
-// Creates a contact; solves up to 20 steady films (some seconds). Nothing is borrowed but
-// film.cancelled_data, which must stay valid until sb_content_destroy(). *out is NULL after an
-// error. SB_ERROR_INPUT: another surface, no threshold, a fitted body, or a starved inlet.
-// SB_ERROR_RANGE: |film.speed| > speed_scale. Also the errors of sb_film_solve().
+// Creates a contact; solves up to 20 steady films (some seconds) unless it stays at rest. Nothing
+// is borrowed but film.cancelled_data, which must stay valid until sb_content_destroy(). *out is
+// NULL after an error. SB_ERROR_INPUT: another surface, no threshold, a fitted body, or a starved
+// inlet. SB_ERROR_RANGE: |film.speed| > speed_scale. Also the errors of sb_film_solve().
 SbStatus sb_content_create(SbContent **out, const SbContentProblem *problem, SbReport *report);
 
 // Frees the contact.

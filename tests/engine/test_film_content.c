@@ -140,6 +140,18 @@ static void test_slip(void) {
   }
 }
 
+// A contact that stays at rest needs no steady film.
+static void test_rest(void) {
+  SbContent *content = contact(997.7344, 0, 0, 0);
+  step(content, 10, 0);
+  const SbContentResult rest = sb_content_result(content);
+  close_to("friction at rest", rest.friction, 423.8, 0.003);
+  g_assert_cmpfloat(rest.mean, ==, 0);
+  const SbContentResult half = sb_content_uniform(content, 0.5 * sb_content_closed(content));
+  g_assert_true(half.friction < rest.friction && isnan(half.error_friction));
+  sb_content_destroy(content);
+}
+
 static void test_start(void) {
   static const Stage start[] = {{0.42e-3 / 3.333e-4, 381, 0.05},
                                 {0.91e-3 / 3.333e-4, 317, 0.05},
@@ -156,6 +168,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/content/steps", test_steps);
   g_test_add_func("/film/content/reversal-and-dwell", test_reversal_and_dwell);
   g_test_add_func("/film/content/slip", test_slip);
+  g_test_add_func("/film/content/rest", test_rest);
   g_test_add_func("/film/content/start", test_start);
   return g_test_run();
 }

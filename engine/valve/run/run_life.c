@@ -79,7 +79,7 @@ static SbLifeActuation yield_of(const SbRun *run, long n, double roughness) {
   return (SbLifeActuation){
       .roughness = roughness,
       .lambda = outer->lambda,
-      // What a stem that stays in carried one way is no loss, as in sb_run_leave_out().
+      // A stuck stem has no full cycle, so no leakage of one (sb_run_leave_out()).
       .leakage = summary->closes ? summary->leakage_per_cycle : NAN,
       .carried = sb_leak_stroke(run->model->bore_diameter, 2 * outer->layer, run->model->stroke),
       .force_peak = summary->force_peak,
