@@ -148,7 +148,8 @@ static void test_inverse(void) {
 // means.
 static void test_disc_thesis(void) {
   static Tally tally[] = {{.name = "load"}, {.name = "peak"}, {.name = "width"}};
-  for (double space = 1.30e-3; space < 1.52e-3; space += 3e-6) {
+  // Up to a contact that has one node at the thesis' distance.
+  for (double space = 1.30e-3; space < 1.57e-3; space += 3e-6) {
     SbFitProblem in = thesis(SB_FIT_DISC_THESIS);
     in.radial_space = space;
     SbFit nodes, disc;

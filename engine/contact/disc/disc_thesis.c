@@ -12,8 +12,9 @@
 // "radial") towards the section's centre as those of a frictionless bore, with nodes that move
 // along the radius too (Hertz and Michell). The printed loads are between the two.
 //
-// The thesis prints the width as d sin(n + 1/2 deg) with the free d, quantised to 0.023 mm. Not
-// modelled: the groove wall, the normal direction of fluid pressure, finite strain. Compared with a
+// The thesis prints the width as d sin(n + 1/2 deg) with the free d, quantised to 0.023 mm. A
+// contact that has less than four of its nodes on a side gets nodes at half of their distance until
+// it has; one that reaches 75 degrees has no solution here. Not modelled: the groove wall, the normal direction of fluid pressure, finite strain. Compared with a
 // finite-strain ring its pressurised loads are 8-9 % low and its widths 7-20 % high.
 //
 // Internally, lengths are divided by the fitted radius, and pressures multiplied by C.
@@ -26,7 +27,10 @@
 #include "engine/contact/fit_models.h"
 #include "engine/numeric/dense.h"
 
-enum { MAX = 152 }; // nodes on one side of the centre, at most (the centre included)
+// Where contacts end at the latest [degrees]; nodes on one side of the centre at most (the centre
+// included, and the first one that is open), half a degree apart; nodes of a contact at least, and
+// how often their distance is halved for that.
+enum { LAST = 75, MAX = 2 * LAST + 2, LEAST = 4, HALVINGS = 4 };
 
 // Workspace of nodes `step` apart, the first `filled` of which know their influence.
 typedef struct {
@@ -128,7 +132,7 @@ static Figures solve(Work *w, const SbFitProblem *in, double section, double ste
   // Bisect for the smallest set whose next node does not overlap: the gap there grows with the set.
   // As the fluid moves with the edge, its last pressure may then be negative by less than the next
   // node's share; 6.73 drops that node.
-  const size_t most = (size_t)floor(75.0 / 180.0 * M_PI / step + 1e-9) - 1;
+  const size_t most = (size_t)fmin(floor(LAST / 180.0 * M_PI / step + 1e-9), MAX - 1) - 1;
   size_t low = 0, high = most;
   double gap;
   bool ok = true;
@@ -155,7 +159,7 @@ static Figures solve(Work *w, const SbFitProblem *in, double section, double ste
   return out;
 }
 
-// Solves with half-degree nodes, which show what the nodes cost, then with the thesis' own.
+// Solves with the thesis' nodes, and with nodes half as far apart, which show what the nodes cost.
 SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   const double section = out->section_diameter_fitted;
   Work *w = malloc(sizeof *w);
@@ -167,15 +171,20 @@ SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   w->disc.kernel = sb_disc_kernel(in->poisson_ratio);
   sb_disc_system_points(&w->disc, 2);
   w->space = in->radial_space / section;
-  const double degree = M_PI / 180.0;
+  double step = M_PI / 180.0;
   size_t fine_iterations = 0;
-  const Figures fine = solve(w, in, section, 0.5 * degree, &fine_iterations);
-  const Figures own = solve(w, in, section, degree, &out->solver.newton_iterations);
+  Figures fine = solve(w, in, section, 0.5 * step, &fine_iterations);
+  Figures own = solve(w, in, section, step, &out->solver.newton_iterations);
+  for (int i = 0; i < HALVINGS && own.loaded > 0 && own.loaded < LEAST; i++) {
+    step *= 0.5;
+    fine = solve(w, in, section, 0.5 * step, &fine_iterations);
+    own = solve(w, in, section, step, &out->solver.newton_iterations);
+  }
   out->solver.converged = own.loaded > 0 && fine.loaded > 0;
   if (!out->solver.converged) {
     free(w);
     return sb_fail_input(report, SB_ERROR_NOT_CONVERGED, SB_CONTACT_IN_RADIAL_SPACE,
-                         "no contact within 75 degrees satisfies the thesis' disc");
+                         "no contact within %d degrees satisfies the thesis' disc", LAST);
   }
 
   out->load_per_length = own.load;
@@ -185,7 +194,7 @@ SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   // The nodes' error in load and peak is first order in their distance, twice the difference; the
   // edge is known to half a node, which leaves its square where the difference happens to vanish.
   const double half_node =
-      0.5 * degree * cos(asin(own.width / in->section_diameter)) * in->section_diameter / own.width;
+      0.5 * step * cos(asin(own.width / in->section_diameter)) * in->section_diameter / own.width;
   const double edge = 0.25 * half_node * half_node;
   sb_fit_errors(out, 2.0 * fabs(fine.load / own.load - 1.0) + edge,
                 2.0 * fabs(fine.peak / own.peak - 1.0) + edge,
@@ -197,7 +206,7 @@ SbStatus sb_disc_thesis(SbFit *out, const SbFitProblem *in, SbReport *report) {
   for (size_t i = 0; i < out->profile_count; i++) {
     const double k = (double)i - (double)side;
     const bool last = i == 0 || i == 2 * side;
-    out->profile_x[i] = 0.5 * in->section_diameter * sin(k * degree);
+    out->profile_x[i] = 0.5 * in->section_diameter * sin(k * step);
     out->profile_p[i] = last ? 0.0 : w->pressure[(size_t)fabs(k)];
   }
   out->profile_x[0] = out->contact_left;
