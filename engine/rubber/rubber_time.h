@@ -43,6 +43,7 @@ enum {
   SB_RUBBER_IN_MODULUS_SLOPE,
   SB_RUBBER_IN_NETWORK,
   SB_RUBBER_IN_SWELL,
+  SB_RUBBER_IN_SWELL_MODULUS,
   SB_RUBBER_IN_RELAXATION,
   SB_RUBBER_IN_END
 };
@@ -90,7 +91,8 @@ typedef struct {
   double fluid_density;    // of the absorbed fluid [kg/m3]
   double diffusion;        // D at T_r [m2/s]; 0: no uptake
   double diffusion_energy; // activation energy of D [J/mol]
-  double swell_modulus;    // modulus at equilibrium divided by the dry modulus; 0: ideal network
+  // Modulus at equilibrium divided by the dry modulus, at least 0.05; 0: ideal network.
+  double swell_modulus;
 } SbRubber;
 
 // The dry, new ring, and its history.

@@ -322,6 +322,11 @@ static void test_swell(void) {
   s = state(&rubber, &in);
   assert_close(s.uptake, sb_rubber_uptake(0.1), 1e-12);
   assert_close(s.swell_modulus, pow(0.4, s.uptake), 1e-12);
+  // A gel is no seal.
+  SbReport report;
+  rubber.swell_modulus = 0.02;
+  g_assert_cmpint(sb_rubber_state(&s, &rubber, &in, NULL, &report), ==, SB_ERROR_RANGE);
+  g_assert_cmpint(report.input, ==, SB_RUBBER_IN_SWELL_MODULUS);
 }
 
 // Load of the fitted ring against storage time: relaxation alone lowers it in proportion to the
