@@ -256,7 +256,7 @@ static bool begin_segment(void *data) {
   const SbDynamics *motion = &r->motion;
   const SbRecordedPlace at = {motion->t, motion->at.x, motion->at.v};
   leak(r, &at, sb_valve_chamber_pressure(&r->valve, motion->at.extra), false);
-  return sb_work_step(r->run->work);
+  return sb_work_segment(r->run->work);
 }
 
 // Advances the motion to `time`, and follows the film at more instants than there are frames.

@@ -96,6 +96,20 @@ static void rig_errors(SbRun *run) {
   }
 }
 
+// Adds to the report of a motion that ended early where it did.
+static SbStatus name_end(const SbRun *run, const SbDynamics *motion, size_t count, SbStatus status,
+                         SbReport *report) {
+  if (status != SB_ERROR_NOT_CONVERGED || report == NULL) {
+    return status;
+  }
+  const SbReport cause = *report;
+  return sb_fail_input(report, status, cause.input,
+                       "motion (rig), stage %s, plate at %.4g mm, %.4g s: %s; available: the "
+                       "samples before",
+                       sb_stage_name(count > 0 ? (SbStage)run->frames[count - 1].stage : SB_STAGE_A),
+                       1e3 * motion->at.x, motion->now, cause.text);
+}
+
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   SbSummary *summary = &run->summary;
   const SbRig *rig = &run->model->rig;
@@ -109,7 +123,7 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   if (status != SB_OK) {
     return status;
   }
-  model.poll = sb_work_step;
+  model.poll = sb_work_segment;
   model.poll_data = run->work;
   sb_dynamics_listen(&motion, note_slip, &slip);
   size_t samples = sb_rig_samples(rig), count = 0, peak;
@@ -137,6 +151,7 @@ SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   status = sb_work_status(run->work, status, report);
   sb_dynamics_sample(&motion, NULL, &energy);
   mark_stages(run, &slip, count);
+  status = name_end(run, &motion, count, status, report);
   if (status == SB_OK) {
     take_coefficients(run, &signal);
     compare_contact(run);

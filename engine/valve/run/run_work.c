@@ -2,13 +2,28 @@
 
 #include "engine/valve/model/params.h"
 
+enum { SEGMENTS_PER_STEP = 10 };
+
+static bool stops(SbWork *work) {
+  return work->spent || (work->cancelled != NULL && work->cancelled(work->data));
+}
+
 bool sb_work_step(void *data) {
   SbWork *work = data;
   if (work->done >= work->limit) {
     work->spent = true;
   }
   work->done += work->spent ? 0 : 1;
-  return work->spent || (work->cancelled != NULL && work->cancelled(work->data));
+  return stops(work);
+}
+
+bool sb_work_segment(void *data) {
+  SbWork *work = data;
+  if (++work->segments < SEGMENTS_PER_STEP) {
+    return stops(work);
+  }
+  work->segments = 0;
+  return sb_work_step(work);
 }
 
 SbWork sb_work_part(const SbWork *work, size_t parts) {
