@@ -126,9 +126,73 @@ static void test_thinned(void) {
   sb_run_destroy(run);
 }
 
+// A film of which a coarse mesh knows nothing is followed on finer ones, up to an estimate below
+// the film itself. Random valve 13 of seed 301.
+static void test_sharpened(void) {
+  const Setting settings[] = {TRANSIENT,
+                              {SB_P_BORE_DIAMETER, 0.006988196008796185},
+                              {SB_P_BORE_LAND_EDGE, 0.008813353420338217},
+                              {SB_P_GLAND_RADIAL_SPACE, 0.002048665388207955},
+                              {SB_P_GLAND_AXIAL_WIDTH, 0.002558743570296603},
+                              {SB_P_SEAL_SECTION_DIAMETER, 0.0021850838048834637},
+                              {SB_P_SEAL_INNER_DIAMETER, 0.0024884403752437867},
+                              {SB_P_SEAL_MODULUS, 1892399.01626823},
+                              {SB_P_SEAL_POISSON_RATIO, 0.4930298215137967},
+                              {SB_P_STEM_PRESSURE_DIAMETER, 0.00551090565729799},
+                              {SB_P_STEM_SEAL_SPACING, 0.009176405448650731},
+                              {SB_P_STEM_MASS, 2.688656107604628e-09},
+                              {SB_P_DRIVE_STROKE, 0.007459562098867579},
+                              {SB_P_DRIVE_SPEED, 0.0019930806682515417},
+                              {SB_P_DRIVE_STIFFNESS, 15846.048352121665},
+                              {SB_P_DRIVE_REVERSAL_FORCE, 37.016217143293524},
+                              {SB_P_DRIVE_REST, 0},
+                              {SB_P_DRIVE_KIND, 0},
+                              {SB_P_DRIVE_PEAK_FORCE, 11.554307505279953},
+                              {SB_P_DRIVE_RISE_TIME, 1.781461469162045},
+                              {SB_P_DRIVE_HOLD_TIME, 0.01110351594654368},
+                              {SB_P_DRIVE_FINGER_DAMPING, 0},
+                              {SB_P_DRIVE_AMPLITUDE, 0.0028632781161434602},
+                              {SB_P_DRIVE_FREQUENCY, 9.243666547644013},
+                              {SB_P_DRIVE_CYCLES, 1},
+                              {SB_P_DRIVE_DAMPING_RATIO, 0.05},
+                              {SB_P_CANISTER_PRESSURE, 948278.2486777485},
+                              {SB_P_CANISTER_PRESSURE_MAP, 0},
+                              {SB_P_CANISTER_AMBIENT_PRESSURE, 73569.55705914643},
+                              {SB_P_FLUID_VISCOSITY, 0.004730006624618561},
+                              {SB_P_FLUID_DENSITY, 1394.4291862069376},
+                              {SB_P_FLUID_REST_FILM, 3.010207964761744e-09},
+                              {SB_P_SURFACE_SIGMA, 1.8349015120591805e-08},
+                              {SB_P_SURFACE_SIGMA_OVER_BETA, 0.038748844735228424},
+                              {SB_P_SURFACE_GT_PRODUCT, 0.04896357435183731},
+                              {SB_P_FRICTION_SHEAR_STRENGTH, 1723914.427712517},
+                              {SB_P_FRICTION_LOAD_COEFFICIENT, 0.08077993961506232},
+                              {SB_P_FRICTION_STATIC_RATIO, 1.5080120488586228},
+                              {SB_P_OUTPUT_MOTION_TOLERANCE, 3.4567777677176337e-09},
+                              {SB_P_MODELS_FIT, 0},
+                              {SB_P_MODELS_SURFACE, 0},
+                              {SB_P_MODELS_ASPERITIES, 0},
+                              {SB_P_MODELS_MOTION, 1},
+                              {SB_P_STORAGE_TIME, 11305.726797421938},
+                              {SB_P_STORAGE_TEMPERATURE, 319.07141414709736},
+                              {SB_P_RUBBER_RELAXATION_SHARE_1, 0.1617217835825214},
+                              {SB_P_RUBBER_RELAXATION_SHARE_2, 0.19368459607544247},
+                              {SB_P_RUBBER_SHIFT, 0},
+                              {SB_P_RUBBER_ENTROPIC, 1},
+                              {SB_P_RUBBER_NETWORK_RATE, 1.1283995316604083e-09},
+                              {SB_P_RUBBER_SWELL_MASS, 0.06497477203179428},
+                              {SB_P_HOUSING_STOP_RESTITUTION, 0.7199422509838584},
+                              {SB_P_HOUSING_STOP_STIFFNESS, 130677.2870944353}};
+  SbModel model;
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  g_assert_cmpfloat(sb_run_summary(run)->error_film_history, <, 1);
+  sb_run_destroy(run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-film/frames", test_frames);
   g_test_add_func("/run-film/thinned", test_thinned);
+  g_test_add_func("/run-film/sharpened", test_sharpened);
   return g_test_run();
 }

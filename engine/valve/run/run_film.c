@@ -9,7 +9,8 @@
 // liquid it has no film. Lambda, real area and friction of a frame follow its film; the motion and
 // the figures of a seal use the steady one. A stretch whose film collapses is repeated on a mesh
 // for thinner films: it has slowed down to films far thinner than at its start, whose necks the
-// edges' spacing does not resolve. From the instant at which a film fails its frames have none. Not
+// edges' spacing does not resolve. A stretch whose error is larger than its film is repeated with a
+// smaller tolerance. From the instant at which a film fails its frames have none. Not
 // modelled: the land's edge under the contact, and the step of the pressures themselves.
 #include <math.h>
 #include <string.h>
@@ -21,6 +22,12 @@
 // A stretch is followed so many times more, for films thinner by this factor.
 enum { FINER_MAX = 2 };
 static const double THINNER = 0.05;
+
+// The tolerance of a stretch. A front in the middle of the contact is then smeared over a few
+// hundredths of it; finer costs more than a drawing gains. A stretch whose estimated error is above
+// UNKNOWN is followed so many times more, each time with a tolerance smaller by this factor.
+static const double COARSEST = 3e-3, SHARPER = 0.3, UNKNOWN = 1;
+enum { SHARPER_MAX = 3 };
 
 // One seal's film through the frames.
 typedef struct {
@@ -35,6 +42,7 @@ typedef struct {
   size_t frame;          // that it has come to
   double error;          // largest estimate of the history of the minimum film
   int finer;             // times that the stretch's mesh was made for thinner films
+  int sharper;           // times that the stretch's tolerance was made smaller
   size_t begin;          // of the stretch: frame; film, error and direction of sliding before it
   double begin_central, begin_error;
   int begin_direction;
@@ -86,10 +94,8 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   }
   problem.film.cancelled = sb_work_step;
   problem.film.cancelled_data = run->work;
-
-  // A front in the middle of the contact is smeared over a few hundredths of it; finer costs more
-  // than a drawing gains.
-  problem.film.tolerance = fmax(run->model->tolerance, 3e-3);
+  problem.film.tolerance =
+      fmax(run->model->tolerance, COARSEST) * pow(SHARPER, history->sharper);
   history->chamber = chamber;
   SbStatus status = sb_film_transient_create(&history->film, &problem, report);
   const bool tips = problem.film.work_of_adhesion > 0;
@@ -132,6 +138,15 @@ static int way_of(const History *history, size_t i, size_t count) {
   return history->direction < 0 ? SB_CYCLE_IN : history->direction;
 }
 
+// Ends a stretch that is to be followed again, and goes back to its first frame, which is returned.
+static size_t go_back(History *history) {
+  end_stretch(history);
+  history->central = history->begin_central;
+  history->error = history->begin_error;
+  history->direction = history->begin_direction;
+  return history->begin;
+}
+
 // One seal through all frames.
 static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, SbReport *report) {
   SbRun *run = history->run;
@@ -160,8 +175,8 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     }
     SbStatus status = SB_OK;
     if (history->film == NULL) {
-      if (i != history->begin || history->finer == 0) {
-        history->finer = 0;
+      if (i != history->begin || history->finer + history->sharper == 0) {
+        history->finer = history->sharper = 0;
         history->begin = i;
         history->begin_central = history->central;
         history->begin_error = error;
@@ -173,18 +188,19 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
                                       report);
     }
     if (status == SB_ERROR_NOT_CONVERGED && history->film != NULL && history->finer < FINER_MAX) {
-      end_stretch(history);
-      next = history->begin;
+      next = go_back(history);
       history->finer++;
-      history->central = history->begin_central;
-      history->error = history->begin_error;
-      history->direction = history->begin_direction;
       continue;
     }
     if (status != SB_OK) {
       return status;
     }
     const SbFilmTransientResult result = sb_film_transient_result(history->film);
+    if (result.error_history > UNKNOWN && history->sharper < SHARPER_MAX) {
+      next = go_back(history);
+      history->sharper++;
+      continue;
+    }
     history->central = result.film_central;
     // Without the companion nothing is known.
     const double least = result.error_history;

@@ -4,8 +4,8 @@
 // count, so that a run ends at the same step on every machine.
 //
 // Start: SbWork work = {.limit = steps, .cancelled = f, .data = d}. Pass sb_work_step (to a motion
-// sb_work_segment) and &work to a solver as its cancel callback. After the solver has returned, pass its status and the SbWork
-// that it polled through sb_work_status().
+// sb_work_segment) and &work to a solver as its cancel callback. After the solver has returned,
+// pass its status and the SbWork that it polled through sb_work_status().
 //
 // One thread uses an SbWork at a time. For concurrent solvers call sb_work_part() once for each,
 // let each poll its own part, and call sb_work_add() for each part in a fixed order after they have
