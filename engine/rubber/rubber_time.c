@@ -120,10 +120,11 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
                          r->terms, sum, SB_RUBBER_TERMS);
   }
   if (r->swell_modulus > 0.0 && r->swell_modulus < SWOLLEN_MIN) {
-    return sb_fail_input(report, SB_ERROR_RANGE, SB_RUBBER_IN_SWELL_MODULUS,
-                         "a swollen modulus of %g times the dry one: at least %g, or 0 for an ideal "
-                         "network",
-                         r->swell_modulus, SWOLLEN_MIN);
+    return sb_fail_input(
+        report, SB_ERROR_RANGE, SB_RUBBER_IN_SWELL_MODULUS,
+        "a swollen modulus of %g times the dry one: at least %g, or 0 for an ideal "
+        "network",
+        r->swell_modulus, SWOLLEN_MIN);
   }
   if (in->use_temperature < r->glass_temperature) {
     return sb_fail_input(report, SB_ERROR_RANGE, SB_RUBBER_IN_USE_TEMPERATURE,

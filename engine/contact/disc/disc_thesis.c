@@ -14,8 +14,9 @@
 //
 // The thesis prints the width as d sin(n + 1/2 deg) with the free d, quantised to 0.023 mm. A
 // contact that has less than four of its nodes on a side gets nodes at half of their distance until
-// it has; one that reaches 75 degrees has no solution here. Not modelled: the groove wall, the normal direction of fluid pressure, finite strain. Compared with a
-// finite-strain ring its pressurised loads are 8-9 % low and its widths 7-20 % high.
+// it has; one that reaches 75 degrees has no solution here. Not modelled: the groove wall, the
+// normal direction of fluid pressure, finite strain. Compared with a finite-strain ring its
+// pressurised loads are 8-9 % low and its widths 7-20 % high.
 //
 // Internally, lengths are divided by the fitted radius, and pressures multiplied by C.
 #include "engine/contact/disc/disc_system.h"

@@ -103,11 +103,12 @@ static SbStatus name_end(const SbRun *run, const SbDynamics *motion, size_t coun
     return status;
   }
   const SbReport cause = *report;
-  return sb_fail_input(report, status, cause.input,
-                       "motion (rig), stage %s, plate at %.4g mm, %.4g s: %s; available: the "
-                       "samples before",
-                       sb_stage_name(count > 0 ? (SbStage)run->frames[count - 1].stage : SB_STAGE_A),
-                       1e3 * motion->at.x, motion->now, cause.text);
+  return sb_fail_input(
+      report, status, cause.input,
+      "motion (rig), stage %s, plate at %.4g mm, %.4g s: %s; available: the "
+      "samples before",
+      sb_stage_name(count > 0 ? (SbStage)run->frames[count - 1].stage : SB_STAGE_A),
+      1e3 * motion->at.x, motion->now, cause.text);
 }
 
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
