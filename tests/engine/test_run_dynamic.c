@@ -150,6 +150,26 @@ static void test_spring_alone(void) {
   sb_run_destroy(run);
 }
 
+// A stem without friction rebounds from the end stop while the machine turns, and goes back past
+// the land's edge: its return begins there at the latest, not in the next cycle.
+static void test_free_rebound(void) {
+  Setting without[] = {{SB_P_GLAND_RADIAL_SPACE, 0.74716e-3},
+                       {SB_P_SEAL_SECTION_DIAMETER, 0.75529e-3},
+                       {SB_P_SEAL_OUTER_SECTION_DIAMETER, 0.74477e-3},
+                       {SB_P_STEM_MASS, 9.3161e-3},
+                       {SB_P_STEM_SPRING_PRELOAD, 6.6789},
+                       {SB_P_DRIVE_SPEED, 24.657e-3},
+                       {SB_P_DRIVE_REVERSAL_FORCE, 5.1571},
+                       {SB_P_FRICTION_SHEAR_STRENGTH, 0.44178e6},
+                       {SB_P_HOUSING_STOP_RESTITUTION, 0.91097}};
+  SbRun *run = run_with(SB_MODEL_MOTION_DYNAMIC, without, G_N_ELEMENTS(without));
+  const SbSummary *summary = sb_run_summary(run);
+  g_assert_true(summary->stage[SB_STAGE_F].reached);
+  g_assert_true(summary->stage[SB_STAGE_E].reached);
+  g_assert_cmpfloat(summary->stage[SB_STAGE_E].time, <=, summary->stage[SB_STAGE_F].time);
+  sb_run_destroy(run);
+}
+
 // Summary of a run of the default valve in any status.
 static SbSummary limited(double work_limit) {
   const Setting set[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
@@ -560,6 +580,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/run-dynamic/refused", test_refused);
   g_test_add_func("/run-dynamic/stiff", test_stiff);
   g_test_add_func("/run-dynamic/dwell-of-presses", test_dwell_of_presses);
+  g_test_add_func("/run-dynamic/free-rebound", test_free_rebound);
   g_test_add_func("/run-dynamic/figures-per-cycle", test_figures_per_cycle);
   return g_test_run();
 }

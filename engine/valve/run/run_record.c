@@ -163,7 +163,9 @@ static void meet_edge(SbRecorder *r, const SbMotionEvent *event, const SbDynamic
     mark(r, SB_STAGE_C, event);
   } else if (valve->touches && edge == valve->edges.closed && event->sign < 0 &&
              event->time >= valve->times.turn && valve->chamber != SB_CHAMBER_AT_REST) {
-    // A rebound that passes the edge on the in-stroke is not the return.
+    // A rebound that passes the edge on the in-stroke is not the return. One that the drive's turn
+    // makes the return begins it without a slip or a stop that is left.
+    mark(r, SB_STAGE_E, event);
     mark(r, SB_STAGE_F, event);
   }
 }
