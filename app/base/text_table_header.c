@@ -176,7 +176,7 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
     const SbTextTableCell cell = {cells[count], strlen(cells[count])};
     const bool empty = sb_text_table_void(&cell);
     if (!empty && (sb_text_table_number(&value, &cell, &table->dialect, NULL) ||
-                   sb_text_table_clock(&clock, &cell))) {
+                   sb_text_table_clock(&clock, &cell, table->dialect.dates))) {
       return false;
     }
     texts += count < table->columns && !empty;

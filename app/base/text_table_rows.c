@@ -9,20 +9,15 @@ typedef struct {
   double day; // seconds of whole days so far
 } Days;
 
-static bool add_days(double *out, Days *days, const SbTextTableClock *clock, char dates) {
-  if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
-    long old, now;
-    if (!sb_text_table_days(&old, &days->last, dates) || !sb_text_table_days(&now, clock, dates)) {
-      return false;
-    }
-    days->day += 86400.0 * (double)(now - old);
-  } else if (days->begun && clock->date[0] == 0 && clock->seconds < days->last.seconds - 43200) {
-    days->day += 86400; // past midnight
-  }
+static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
+  const SbTextTableClock last = days->begun ? days->last : *clock;
+  const bool midnight = clock->day == 0 && clock->seconds < last.seconds - 43200;
+  days->day += 86400.0 * ((double)clock->day - last.day + midnight);
   days->begun = true;
   days->last = *clock;
   *out = days->day + clock->seconds;
-  return true;
+  return clock->day == last.day ||
+         (clock->day > 0 && last.day > 0 && !clock->ambiguous && !last.ambiguous);
 }
 
 static const char ambiguous_date[] = "is ambiguous: the date advances by a day or by a month";
@@ -51,8 +46,8 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
     bool read;
     if (!table->column[at].clock) {
       read = sb_text_table_number(&row[k], &cell[at], &table->dialect, NULL);
-    } else if ((read = sb_text_table_clock(&clock, &cell[at])) && out->good &&
-               !add_days(&row[k], &days[k], &clock, table->dialect.dates)) {
+    } else if ((read = sb_text_table_clock(&clock, &cell[at], table->dialect.dates)) && out->good &&
+               !add_days(&row[k], &days[k], &clock)) {
       wrong = ambiguous_date;
     }
     out->any |= read;

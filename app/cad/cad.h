@@ -76,7 +76,8 @@ typedef struct {
   // Angle of the cutting half-plane about the axis, right-handed [rad]; not for DXF. 0: STEP: the y
   // axis of the file, turned with x when x is turned to the axis by the shortest way; STL: the
   // file's axis after the one nearest to the axis (x after z), made perpendicular to it. NULL:
-  // STEP: 37.7 degrees; STL: through a vertex farthest from the axis.
+  // STEP: 37.7 degrees; STL: through a vertex farthest from the axis; the largest of eight
+  // half-sections where that one, revolved, has another volume than the body.
   const double *angle;
   double join;  // DXF: largest gap between ends that are one point [m]; 0: 1 um
   double shift; // added to x after `flip` [m]

@@ -1,8 +1,8 @@
 // sealbench-cad FILE.step ANGLE DX DY DZ PX PY PZ: the bodies of a STEP file as text on standard
 // output, by gmsh and its OpenCASCADE kernel. A program of its own: a kernel that crashes, hangs or
 // takes memory without end on a hostile file ends here, within the limits set below. Lengths in m,
-// the axis along x; each body cut by the half-plane at ANGLE [rad] about it. DX and PX: direction
-// and a point [m] of the axis; "nan": found. The text:
+// the axis along x; each body cut by the half-plane at ANGLE [rad] about it; "nan": by one that
+// meets no port. DX and PX: direction and a point [m] of the axis; "nan": found. The text:
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
 //   solid V V cx cy cz Ixx Ixy ... Izz     SbSolid: volume, mass, centre, moments at 1 kg/m3
@@ -29,6 +29,11 @@
 // The kernel works in mm, for which its tolerances are made.
 static const double SCALE = 1e-3;
 enum { PIECES_MAX = 100000 };
+
+// Half-plane that is tried first [rad], off those in which ports and flats are drawn; how near the
+// volumes of a body and its half-section, revolved, are where no other one is tried; how much more
+// another one must give, relative.
+static const double OFF_PORTS = 0.658, NEAR = 0.02, MORE = 1e-3;
 static const rlim_t MEMORY_MAX = (rlim_t)4 << 30;
 
 // What standard output was: the kernel prints there as it likes, from now on to nowhere.
@@ -234,9 +239,10 @@ static bool is_better(const Axis *a, const Axis *than) {
 // Finds the axis that most area of the round faces turns about, of those along `direction` if that
 // is given; without one that through the centre of the largest ball and that of another one, or
 // else at right angles to the largest plane, or else along x; without a ball that through the
-// centre of mass if a direction or a point is given. A given point replaces the one found.
-static bool find_axis(Axis *best, const int *bodies, size_t count, const double direction[3],
-                      const double through[3]) {
+// centre of mass if a direction or a point is given. A given point replaces the one found. Returns
+// what is wrong, static, or NULL.
+static const char *find_axis(Axis *best, const int *bodies, size_t count, const double direction[3],
+                             const double through[3]) {
   static Axis axes[AXES_MAX];
   int found = 0, ierr, *faces = NULL;
   size_t face_count = 0;
@@ -252,8 +258,13 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
     const bool fits = !directed || fabs(dot(own->direction, direction)) >= 1 - PARALLEL;
     first = (fits || own->kind != ROUND) && is_better(own, first) ? own : first;
   }
+  int planes = 0; // directions of them
   for (const Axis *own = axes; own < axes + found; own++) {
     next = own != first && own->kind != ROUND && is_better(own, next) ? own : next;
+    planes += own->kind == PLANE;
+  }
+  if (!directed && first->kind == BALL && next->kind == PLANE && planes > 1) {
+    return "is a ball with planes of several directions: any of them may be across its axis";
   }
   *best = first->kind <= BALL ? *first : (Axis){.area = 0};
   for (int k = 0; best->kind == BALL && k < 3; k++) {
@@ -280,7 +291,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
     memcpy(best->point, through, sizeof best->point);
   }
   nearest_point(best, !directed);
-  return best->area > 0 || mass > 0;
+  return best->area > 0 || mass > 0 ? NULL : "has no face of revolution, so no axis";
 }
 
 // Moves everything so that the axis is x and the half-plane at `angle` is y > 0, z = 0.
@@ -356,47 +367,74 @@ static bool print_edges(int face) {
   return good;
 }
 
-// The half-section of a body: its common part with a rectangle of the half-plane.
-static void print_section(int body) {
-  int ierr;
-  double box[6];
-  gmshModelOccGetBoundingBox(3, body, &box[0], &box[1], &box[2], &box[3], &box[4], &box[5], &ierr);
-  if (ierr != 0) {
-    fprintf(out, "why it has no extent\n");
-    return;
-  }
+// Cuts a body by a rectangle of the half-plane y > 0, z = 0. Returns the faces that are common to
+// both, freed by gmshFree(), their number and the volume of their revolution [mm3], by the theorem
+// of Pappus; NULL: there are none, *failed: the kernel cannot cut it.
+static int *cut(size_t *count, double *volume, bool *failed, int body, const double box[6]) {
   const double size = 2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
   const double margin = 0.1 * (box[3] - box[0]) + 0.1;
-  const int plane = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin,
-                                             size + 1, -1, 0, &ierr);
-  int object[2] = {3, body}, tool[2] = {2, plane}, *faces = NULL, **map = NULL;
-  size_t count = 0, *map_n = NULL, maps = 0;
+  int ierr, object[2] = {3, body}, tool[2] = {2, -1}, *all = NULL, **map = NULL;
+  size_t n = 0, *map_n = NULL, maps = 0;
+  *count = 0;
+  *volume = 0;
+  tool[1] = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin, size + 1,
+                                     -1, 0, &ierr);
   if (ierr == 0) {
-    gmshModelOccIntersect(object, 2, tool, 2, &faces, &count, &map, &map_n, &maps, -1, 0, 1, &ierr);
+    gmshModelOccIntersect(object, 2, tool, 2, &all, &n, &map, &map_n, &maps, -1, 0, 1, &ierr);
   }
-  if (ierr == 0) {
-    gmshModelOccSynchronize(&ierr);
-  }
-  bool good = ierr == 0;
-  int cut = 0;
-  for (size_t i = 0; good && i + 1 < count; i += 2) {
-    if (faces[i] == 2) {
-      cut++;
-      good = print_edges(faces[i + 1]);
+  *failed = ierr != 0;
+  for (size_t i = 0; i + 1 < n; i += 2) {
+    double area = 0, at[3] = {0};
+    if (all[i] == 2) {
+      gmshModelOccGetMass(2, all[i + 1], &area, &ierr);
+      gmshModelOccGetCenterOfMass(2, all[i + 1], &at[0], &at[1], &at[2], &ierr);
+      *volume += 2 * M_PI * area * at[1];
+      all[(*count)++] = all[i + 1];
     }
   }
-  if (!good || cut == 0) {
-    fprintf(out, "why %s\n", good ? "the half-plane does not meet it" : "the kernel cannot cut it");
-  }
-  gmshFree(faces);
   for (size_t i = 0; i < maps; i++) {
     gmshFree(map[i]);
   }
   gmshFree(map);
   gmshFree(map_n);
+  return all;
 }
 
-static void print_body(int body, int number) {
+// Prints the half-section of a body of this volume [mm3]: that of the first of PLANES half-planes
+// that is near it, revolved, else that of the largest one: the others meet ports.
+static void print_section(int body, double volume, bool chosen) {
+  enum { PLANES = 8 };
+  int ierr, *best = NULL, own[2] = {3, body};
+  double box[6], most = -1;
+  size_t best_count = 0;
+  bool failed = true;
+  gmshModelOccGetBoundingBox(3, body, &box[0], &box[1], &box[2], &box[3], &box[4], &box[5], &ierr);
+  for (int k = 0; ierr == 0 && k < (chosen ? 1 : PLANES) && !(fabs(most / volume - 1) < NEAR);
+       k++) {
+    size_t count;
+    double each;
+    bool wrong;
+    int *faces = cut(&count, &each, &wrong, body, box);
+    failed = failed && wrong;
+    const bool better = each > (1 + MORE) * most;
+    gmshFree(better ? best : faces);
+    best = better ? faces : best;
+    best_count = better ? count : best_count;
+    most = better ? each : most;
+    gmshModelOccRotate(own, 2, 0, 0, 0, 1, 0, 0, -2 * M_PI / PLANES, &ierr);
+  }
+  gmshModelOccSynchronize(&ierr);
+  bool good = ierr == 0 && !failed;
+  for (size_t i = 0; good && i < best_count; i++) {
+    good = print_edges(best[i]);
+  }
+  if (!good || best_count == 0) {
+    fprintf(out, "why %s\n", good ? "the half-plane does not meet it" : "the kernel cannot cut it");
+  }
+  gmshFree(best);
+}
+
+static void print_body(int body, int number, bool chosen) {
   int ierr;
   char *name = NULL;
   gmshModelGetEntityName(3, body, &name, &ierr);
@@ -424,7 +462,7 @@ static void print_body(int body, int number) {
     fprintf(out, "note its volume and moments can be wrong by 1 %%: its spline faces could not be "
                  "measured accurately\n");
   }
-  print_section(body);
+  print_section(body, solid.volume, chosen);
   fflush(out);
 }
 
@@ -485,12 +523,15 @@ int main(int argc, char **argv) {
     direction[k] /= length;
   }
   gsl_set_error_handler_off();
-  check(!find_axis(&axis, bodies, 2 * solids, direction, through), "axis"); // step.c has the text
+  const char *wrong = find_axis(&axis, bodies, 2 * solids, direction, through);
+  g_autofree char *axis_error = g_strconcat("axis ", wrong, NULL); // for step.c
+  check(wrong != NULL, axis_error);
   const double *p = axis.point, *d = axis.direction;
   print_numbers("axis", (double[]){SCALE * p[0], SCALE * p[1], SCALE * p[2], d[0], d[1], d[2]}, 6);
-  place(bodies, 2 * solids, &axis, strtod(argv[2], NULL));
+  const double angle = strtod(argv[2], NULL);
+  place(bodies, 2 * solids, &axis, isnan(angle) ? OFF_PORTS : angle);
   for (size_t i = 0; i < solids; i++) {
-    print_body(bodies[2 * i + 1], (int)i + 1);
+    print_body(bodies[2 * i + 1], (int)i + 1, !isnan(angle));
   }
   fprintf(out, "end\n");
   gmshFree(bodies);

@@ -36,8 +36,7 @@ static char *run_helper(const char *path, const SbCadChoices *choices, GError **
                "then ./run where the sources are, or save a DXF of the section instead");
     return NULL;
   }
-  // A plane off those in which ports and flats are drawn.
-  const double angle = choices->angle != NULL ? *choices->angle : 0.658;
+  const double angle = choices->angle != NULL ? *choices->angle : NAN;
   const double unknown[3] = {NAN, NAN, NAN};
   const double *axis = choices->axis != NULL ? choices->axis : unknown;
   const double *at = choices->through != NULL ? choices->through : unknown;
@@ -90,8 +89,8 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
     double n[sizeof(SbSolid) / sizeof(double)];
-    if (strcmp(line, "error axis") == 0) {
-      return sb_app_error_choose(error, "axis", "x\ny\nz", "has no face of revolution, so no axis");
+    if (g_str_has_prefix(line, "error axis ")) {
+      return sb_app_error_choose(error, "axis", "x\ny\nz", "%s", line + 11);
     }
     if (g_str_has_prefix(line, "error ")) {
       return sb_app_error_input(error, "%s", line + 6);

@@ -1,12 +1,14 @@
 // Reads measured loops: which column is what, in which unit; see measured.h.
 #include "app/data/measured_private.h"
 
-#include "app/base/number.h"
+#include "app/base/reader.h"
 
 #include <gsl/gsl_statistics_double.h>
 
 #define SPEED_MAX 10.0                                                   // of a test machine [m/s]
 #define FACTOR    "fa[ckt]?t[oe]|multipl|s[ck]al|échelle|gain|倍率|係数" // in a line with a factor
+
+enum { BYTES_MAX = 1 << 30 }; // largest file
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -470,17 +472,15 @@ static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed
   return good ? g_steal_pointer(&m) : NULL;
 }
 
-SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
-                              GPtrArray *issues) {
+SbMeasured *sb_measured_read(const SbData *data, double speed, const void *bytes, size_t length,
+                             GPtrArray *issues) {
   SbTextTableDialect wish = {0};
+  const char *path = data->path;
   const bool good = sb_measured_dialect(&wish, data, issues);
-  g_autoptr(SbTextTable) table = !good ? NULL
-                                 : bytes != NULL
-                                     ? sb_text_table_parse(bytes, length, &wish, data->path, issues)
-                                     : sb_text_table_open(data->path, &wish, issues);
+  g_autofree char *own =
+      good && bytes == NULL ? sb_reader_load(&length, path, path, BYTES_MAX, issues) : NULL;
+  bytes = bytes != NULL ? bytes : own;
+  g_autoptr(SbTextTable) table =
+      good && bytes != NULL ? sb_text_table_parse(bytes, length, &wish, path, issues) : NULL;
   return table != NULL ? read_all(table, data, speed, issues) : NULL;
-}
-
-SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
-  return sb_measured_parse(data, speed, NULL, 0, issues);
 }
