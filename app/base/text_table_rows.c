@@ -98,7 +98,7 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
-  bool blank = false, cut = false, other = false;
+  bool blank = false, cut = false, other = false, label = false; // label: of the last row
   const size_t lines = table->file->line->len, room = MIN(lines + 1, SB_TEXT_TABLE_ROWS_MAX);
   size_t begun = 0, number = 0, run = 0; // blocks behind blank lines or names; of the line; rows
   for (size_t k = 0; k < count; k++) {
@@ -119,7 +119,11 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     other = line.cells != table->columns && (other || (blank && line.cells > 0));
     const bool like = line.good && line.any && !other;
     blank = line.cells == 0;
-    begun += like && (cut || block.headed);
+    const guint64 texts = // all cells are read if there is no other column
+        like && count <= table->columns ? sb_text_table_shape(text, &table->dialect).texts : 0;
+    const bool labelled = (texts & ~table->file->texts) != 0;
+    begun += like && (cut || block.headed || labelled != label);
+    label = like ? labelled : label;
     cut = !like && (cut || blank);
     sb_text_table_block_next(&block, like, text, table);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {

@@ -576,6 +576,8 @@ static void test_blocks(void) {
       {"", HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
       {"", LOOP, 0, COUNT + 8, 0, true, false, 1},
       {"1;1;1\n", "", 0, COUNT, 1, false, false, 0},
+      {"60;50;1000\n", "", 0, COUNT, 1, false, false, 0}, // full scales
+      {"60;50;1000\n", "", 0, COUNT, 1, false, true, 0},
       {"", "\nProbe 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 1},
       {"", "\nZyklus 2\n" HEAD LOOP, 0, COUNT + 8, 0, true, false, 0},
       {"0;0;1\n1;9;2\n" HEAD, "", 0, COUNT, 2, false, false, 0},
@@ -607,6 +609,30 @@ static void test_blocks(void) {
     g_assert_cmpuint(m->tests, ==, cases[i].tests);
     g_assert_cmpuint(m->last, ==, cases[i].tests > 0 ? 0 : m->cycle->len - 1);
     g_assert_true((strstr(words, "one below the other") != NULL) == (cases[i].tests > 0));
+  }
+}
+
+// A labelled row within the rows is left out if it does not continue them; a remark is none.
+static void test_labels(void) {
+  for (int timed = 0; timed < 2; timed++) {
+    GString *text =
+        g_string_new(timed ? "Name,Ext (mm),Load (N),Time (s)\n" : "Name,Ext (mm),Load (N)\n");
+    for (int k = 0; k < 80; k++) {
+      const int place = k < 40 ? k : 80 - k;
+      g_string_append_printf(text, "%s,%d.5,%d.5", k == 25 ? "peak" : "", place, k < 40 ? 20 : 5);
+      g_string_append_printf(text, timed ? ",%d.5\n" : "\n", k);
+      if (k == 50) {
+        g_string_append(text, timed ? "Mean,15.5,12.5,2.5\nMax,40.5,20.5,79.5\n"
+                                    : "Mean,15.5,12.5\nMax,40.5,20.5\n");
+      }
+    }
+    SbData *data = sb_data_of_file("x.csv");
+    g_autoptr(GBytes) bytes = g_string_free_to_bytes(text);
+    g_autoptr(SbMeasured) m = read_bytes(bytes, data);
+    sb_data_free(data);
+    g_assert_cmpuint(m->count, ==, 80);
+    g_assert_cmpuint(m->dropped, ==, 2);
+    g_assert_cmpuint(m->cycle->len, ==, 1);
   }
 }
 
@@ -792,6 +818,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/measured/time-alone", test_time_alone);
   g_test_add_func("/measured/settled", test_settled);
   g_test_add_func("/measured/blocks", test_blocks);
+  g_test_add_func("/measured/labels", test_labels);
   g_test_add_func("/measured/specimens", test_specimens);
   g_test_add_func("/measured/numbers", test_numbers);
   g_test_add_func("/measured/left-line", test_left_line);
