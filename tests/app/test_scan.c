@@ -431,6 +431,7 @@ static void test_headers(void) {
       "# Canal : Hauteur\n# Largeur : 10,0 \xc2\xb5m\n# Hauteur : 34 \xc2\xb5m\n"
       "# Unit\xc3\xa9 des valeurs : nm\n";
   static const char *const factor = "Width: 10 um\nHeight: 34 um\nZ unit: um\nZ factor: 0.001\n";
+  static const char *const times = "X step: 0.5 um\nY step: 2 um\nHeight: x 0.001 um\n";
   static const char *const scale = "Width: 10 um\nHeight: 34 um\nZ-Scale [pm]: 1000\n";
   const struct {
     const char *header;
@@ -440,6 +441,8 @@ static void test_headers(void) {
       {french, ','},
       {factor, '.'},
       {scale, '.'},
+      {times, '.'},
+      {"X step: 0.5 um\nY step: 2 um\nZ: \xc3\x97 1 nm\n", '.'},
       {"Width: 10 um\nHeight: 34 um\nUnit: nm\n", '.'},
       {"\"Breite\";\"10,0\";\"um\"\n\"H\xc3\xb6he\";\"34\";\"um\"\n\"Einheit\";\"nm\"\n", ','}};
   // Lines that may be factors; lines that contradict the header.
@@ -449,6 +452,7 @@ static void test_headers(void) {
                                        "Sensitivity: 0.25 um/V",
                                        "Data in 1/10 um",
                                        "Unit: 0.1 um",
+                                       "Vertical magnification: x 50",
                                        "Counts per um: 4000",
                                        "Z\xe4\xbf\x82\xe6\x95\xb0: 0.25",
                                        "Columns: 17\nRows: 20"};
@@ -466,14 +470,17 @@ static void test_headers(void) {
     assert_text(text, &plain, &h);
     g_string_free(text, TRUE);
   }
-  GString *text = matrix(factor, "\t", '.', "nan");
-  SbScan scan;
-  g_assert_true(
-      sb_scan_parse(&scan, text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "x", NULL));
-  assert_same(&scan, &h, 1e-20);
-  g_assert_nonnull(strstr(scan.notes->pdata[0], "factor 0.001 is not used"));
-  sb_scan_clear(&scan);
-  g_string_free(text, TRUE);
+  GString *text = NULL;
+  for (int i = 0; i < 2; i++) {
+    text = matrix(i == 0 ? factor : times, "\t", '.', "nan");
+    SbScan scan;
+    g_assert_true(
+        sb_scan_parse(&scan, text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "x", NULL));
+    assert_same(&scan, &h, 1e-20);
+    g_assert_nonnull(strstr(scan.notes->pdata[0], "factor 0.001 is not used"));
+    sb_scan_clear(&scan);
+    g_string_free(text, TRUE);
+  }
   // ESRI with decimal commas; a profile whose units follow the names; blocks of results above.
   h.dy = h.dx;
   text = matrix("ncols 20\nnrows 17\nxllcorner 0,0\nyllcorner 0,0\ncellsize 0,5\n"
@@ -677,8 +684,8 @@ static void test_numbers(void) {
 }
 
 static void test_refused(void) {
-  assert_refused("", 0, &plain, "no numbers");
-  assert_refused("hello\nworld\n", 12, &plain, "no numbers");
+  assert_refused("", 0, &plain, "it is empty");
+  assert_refused("hello\nworld\n", 12, &plain, "it is empty");
   assert_refused("\0\1\2", 3, &plain, "not a scan that is known");
   assert_refused("0,5\n0,6\n0,7\n", 12, &plain, "is ambiguous");
   assert_refused("ncols 100000\nnrows 100000\ncellsize 1\n1 2 3\n", 43,
