@@ -382,7 +382,6 @@ static void find_block(SbTextTable *table, const Sample *sample) {
       table->file->names = g_strdup(block.names);
     }
   }
-  table->header_lines += sb_text_table_labelled(table, table->header_lines, 1);
   g_free(block.names);
 }
 

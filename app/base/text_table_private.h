@@ -83,10 +83,6 @@ static inline const GString *sb_text_table_line(const SbTextTable *table, size_t
 // Returns whether a line has values where the rows of the table have them.
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
 
-// Returns the number of lines, from `line` on by steps of 1 or -1, with a label in a column without
-// texts, such as Min or Mean; 0 if they are more than a results block has.
-size_t sb_text_table_labelled(const SbTextTable *table, size_t line, int step);
-
 // Moves to the next line: `row` states whether it is a row of the table.
 void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,
                               const SbTextTable *table);

@@ -99,6 +99,11 @@ SbCad *sb_cad_new(const char *format);
 // Returns false if the kernel cannot measure it. Only in sealbench-cad.
 bool sb_cad_measure(SbSolid *solid, int body, bool *coarse);
 
+// Returns the faces, freed by gmshFree(), that a body and the half-plane y > 0, z = 0 have in
+// common, their number, and the volume of their revolution [mm3] by the theorem of Pappus. `box`:
+// that of the body. *failed: the kernel cannot cut it. Only in sealbench-cad.
+int *sb_cad_cut(size_t *count, double *volume, bool *failed, int body, const double box[6]);
+
 // Reads a STEP file by sealbench-cad into a settled drawing (sb_cad_settle()). `shown` is the
 // printable path for messages. Errors as sb_cad_read().
 SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,

@@ -9,10 +9,6 @@ enum { NEAR_MAX = 1000000 };
 // Ends that are closer are one point, and shorter pieces are ignored [m].
 static const double TINY = 1e-9;
 
-static SbPiece reversed(SbPiece piece) {
-  return (SbPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
-}
-
 // A piece with the circle about its middle in which it is.
 typedef struct {
   SbPiece piece;
@@ -110,7 +106,7 @@ typedef struct {
 // Returns the edge as it is left from an end.
 static SbPiece piece_from(const Graph *graph, guint end) {
   const SbPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
-  return end % 2 == 0 ? piece : reversed(piece);
+  return end % 2 == 0 ? piece : (SbPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
 }
 
 // Joins the ends at one point, and each end off the axis that is then alone to the nearest one

@@ -95,68 +95,62 @@ static void nearest_point(Axis *axis, bool oriented) {
 enum { GRID = 5, SAMPLES = GRID * GRID, AXES_MAX = 5000 };
 static const double ZERO = 1e-3, PARALLEL = 1e-8, SAME = 1e-3;
 
-// Writes points and unit normals of a face; returns whether the kernel gives them.
-static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
-  double *low = NULL, *high = NULL, *at = NULL, *normal = NULL, where[2 * SAMPLES];
+// Gives points and unit normals of a face, freed by gmshFree(); returns whether the kernel has
+// them.
+static bool sample(double **at, double **normal, int tag) {
+  double *low = NULL, *high = NULL, where[2 * SAMPLES];
   size_t n_low = 0, n_high = 0, n_at = 0, n_normal = 0;
-  int ierr;
+  int ierr, wrong = 1;
   gmshModelGetParametrizationBounds(2, tag, &low, &n_low, &high, &n_high, &ierr);
-  bool good = ierr == 0 && n_low == 2 && n_high == 2;
-  for (int i = 0; good && i < 2 * SAMPLES; i++) {
-    const int step = i % 2 == 0 ? i / 2 % GRID : i / 2 / GRID;
-    where[i] = low[i % 2] + (step + 0.4) / GRID * (high[i % 2] - low[i % 2]); // off poles and seams
+  if (ierr == 0 && n_low == 2 && n_high == 2) {
+    for (int i = 0; i < 2 * SAMPLES; i++) { // off poles and seams
+      const int step = i % 2 == 0 ? i / 2 % GRID : i / 2 / GRID;
+      where[i] = low[i % 2] + (step + 0.4) / GRID * (high[i % 2] - low[i % 2]);
+    }
+    gmshModelGetValue(2, tag, where, 2 * SAMPLES, at, &n_at, &ierr);
+    gmshModelGetNormal(tag, where, 2 * SAMPLES, normal, &n_normal, &wrong);
   }
-  if (good) {
-    gmshModelGetValue(2, tag, where, 2 * SAMPLES, &at, &n_at, &ierr);
-    good = ierr == 0 && n_at == 3 * SAMPLES;
-    gmshModelGetNormal(tag, where, 2 * SAMPLES, &normal, &n_normal, &ierr);
-    good = good && ierr == 0 && n_normal == 3 * SAMPLES;
-  }
+  gmshFree(low);
+  gmshFree(high);
+  bool good = ierr + wrong == 0 && n_at == 3 * SAMPLES && n_normal == 3 * SAMPLES;
   for (int i = 0; good && i < 3 * SAMPLES; i++) {
-    q[i / 3][i % 3] = at[i];
-    n[i / 3][i % 3] = normal[i];
-    good = isfinite(at[i]) && isfinite(normal[i]);
-  }
-  double *const arrays[] = {low, high, at, normal};
-  for (int i = 0; i < 4; i++) {
-    gmshFree(arrays[i]);
+    good = isfinite((*at)[i]) && isfinite((*normal)[i]);
   }
   return good;
 }
 
 // Writes the direction of an axis, and to `p` its point nearest to the centre or the centre of a
-// ball, from the last `count` columns of v[6][6] (d and m of a line).
-static Kind axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
-  double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
-  for (int j = 6 - count; j < 6; j++) {
-    const double d[3] = {v[j], v[6 + j], v[12 + j]}, m[3] = {v[18 + j], v[24 + j], v[30 + j]};
-    const double square = dot(d, d);
-    double turned[3];
-    cross(turned, d, m);
-    for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
-      gram[k / 3][k % 3] += (k % 4 == 0) * square - d[k / 3] * d[k % 3];
+// ball, from the last `count` columns of v[6][6] (d and m of a line): the shortest solution of
+// p x d = m for all of them.
+static Kind axis_of_columns(Axis *axis, double p[3], const double v[36], int count) {
+  double a[27] = {0}, moments[9] = {0}, turns[9], s[3], work[3], longest = 0, pitch = 0;
+  for (int j = 0; j < count; j++) {
+    const double *from = v + 6 - count + j;
+    const double d[3] = {from[0], from[6], from[12]}, m[3] = {from[18], from[24], from[30]};
+    const double length = sqrt(dot(d, d));
+    const double rows[9] = {0, d[2], -d[1], -d[2], 0, d[0], d[1], -d[0], 0};
+    memcpy(a + 9 * (size_t)j, rows, sizeof rows);
+    memcpy(moments + 3 * (size_t)j, m, sizeof m);
+    for (int k = 0; length > longest && k < 3; k++) {
+      axis->direction[k] = d[k] / length;
     }
-    for (int k = 0; k < 3; k++) {
-      sum[k] += turned[k];
-      axis->direction[k] = square > longest ? d[k] / sqrt(square) : axis->direction[k];
-      moment[k] = square > longest ? m[k] / sqrt(square) : moment[k];
-    }
-    longest = fmax(longest, square);
+    pitch = length > longest ? dot(axis->direction, m) / length : pitch;
+    longest = fmax(longest, length);
   }
-  if (count < 3) {
-    cross(p, axis->direction, moment);
-    // Without a rotation, an extruded face; with a pitch, a thread.
-    const bool turns = count == 2 || fabs(dot(axis->direction, moment)) < ZERO;
-    return sqrt(longest) > ZERO && turns ? ROUND : OTHER;
+  gsl_matrix_view all = gsl_matrix_view_array(a, 9, 3), right = gsl_matrix_view_array(turns, 3, 3);
+  gsl_vector_view values = gsl_vector_view_array(s, 3), room = gsl_vector_view_array(work, 3);
+  gsl_vector_view b = gsl_vector_view_array(moments, 9), x = gsl_vector_view_array(p, 3);
+  if (gsl_linalg_SV_decomp(&all.matrix, &right.matrix, &values.vector, &room.vector) != 0) {
+    return OTHER;
   }
-  double det[3], across[3];
-  cross(det, gram[0], gram[1]);
-  const double whole = dot(det, gram[2]);
-  for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
-    cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
-    p[k] = dot(across, sum) / whole;
-  }
-  return whole > ZERO ? BALL : PLANE; // all rotations of a plane have one direction
+  const bool parallel = s[2] < ZERO;
+  s[2] = parallel ? 0 : s[2];
+  gsl_linalg_SV_solve(&all.matrix, &right.matrix, &values.vector, &b.vector, &x.vector);
+  // All rotations of a plane have one direction. Without a rotation, an extruded face; with a
+  // pitch, a thread.
+  return count == 3                                             ? (parallel ? PLANE : BALL)
+         : longest > ZERO && (count == 2 || fabs(pitch) < ZERO) ? ROUND
+                                                                : OTHER;
 }
 
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
@@ -164,26 +158,26 @@ static Kind axis_of_rows(Axis *axis, double p[3], const double v[36], int count)
 // Computational Line Geometry, Springer 2001, section 3.4). Its dimension is 1 for a face of
 // revolution, 2 for a cylinder, 3 for a ball or a plane; others are not changed.
 static void axis_of(Axis *axis, int tag) {
-  double q[SAMPLES][3], n[SAMPLES][3], centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
-  if (!sample(q, n, tag)) {
-    return;
+  double *q = NULL, *n = NULL, centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
+  const bool good = sample(&q, &n, tag);
+  for (int i = 0; good && i < 3 * SAMPLES; i++) {
+    centre[i % 3] += q[i] / SAMPLES;
   }
-  for (int i = 0; i < 3 * SAMPLES; i++) {
-    centre[i % 3] += q[i / 3][i % 3] / SAMPLES;
-  }
-  for (int i = 0; i < SAMPLES; i++) {
+  for (int i = 0; good && i < SAMPLES; i++) {
     for (int k = 0; k < 3; k++) {
-      q[i][k] -= centre[k];
+      q[3 * i + k] -= centre[k];
     }
-    size = fmax(size, sqrt(dot(q[i], q[i])));
+    size = fmax(size, sqrt(dot(q + 3 * (size_t)i, q + 3 * (size_t)i)));
   }
-  for (int i = 0; i < SAMPLES; i++) {
-    cross(a + 6 * (size_t)i, q[i], n[i]);
+  for (int i = 0; good && i < SAMPLES; i++) {
+    cross(a + 6 * (size_t)i, q + 3 * (size_t)i, n + 3 * (size_t)i);
     for (int k = 0; k < 3; k++) {
       a[6 * i + k] /= size;
-      a[6 * i + 3 + k] = n[i][k];
+      a[6 * i + 3 + k] = n[3 * i + k];
     }
   }
+  gmshFree(q);
+  gmshFree(n);
   gsl_matrix_view all = gsl_matrix_view_array(a, SAMPLES, 6), cols = gsl_matrix_view_array(v, 6, 6);
   gsl_vector_view values = gsl_vector_view_array(s, 6), work = gsl_vector_view_array(w, 6);
   if (!(size > 0) ||
@@ -195,7 +189,7 @@ static void axis_of(Axis *axis, int tag) {
     count++;
   }
   double p[3] = {0};
-  axis->kind = count == 0 || count > 3 ? OTHER : axis_of_rows(axis, p, v, count);
+  axis->kind = count == 0 || count > 3 ? OTHER : axis_of_columns(axis, p, v, count);
   for (int k = 0; k < 3; k++) {
     axis->point[k] = centre[k] + size * p[k];
   }
@@ -367,39 +361,6 @@ static bool print_edges(int face) {
   return good;
 }
 
-// Cuts a body by a rectangle of the half-plane y > 0, z = 0. Returns the faces that are common to
-// both, freed by gmshFree(), their number and the volume of their revolution [mm3], by the theorem
-// of Pappus; NULL: there are none, *failed: the kernel cannot cut it.
-static int *cut(size_t *count, double *volume, bool *failed, int body, const double box[6]) {
-  const double size = 2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
-  const double margin = 0.1 * (box[3] - box[0]) + 0.1;
-  int ierr, object[2] = {3, body}, tool[2] = {2, -1}, *all = NULL, **map = NULL;
-  size_t n = 0, *map_n = NULL, maps = 0;
-  *count = 0;
-  *volume = 0;
-  tool[1] = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin, size + 1,
-                                     -1, 0, &ierr);
-  if (ierr == 0) {
-    gmshModelOccIntersect(object, 2, tool, 2, &all, &n, &map, &map_n, &maps, -1, 0, 1, &ierr);
-  }
-  *failed = ierr != 0;
-  for (size_t i = 0; i + 1 < n; i += 2) {
-    double area = 0, at[3] = {0};
-    if (all[i] == 2) {
-      gmshModelOccGetMass(2, all[i + 1], &area, &ierr);
-      gmshModelOccGetCenterOfMass(2, all[i + 1], &at[0], &at[1], &at[2], &ierr);
-      *volume += 2 * M_PI * area * at[1];
-      all[(*count)++] = all[i + 1];
-    }
-  }
-  for (size_t i = 0; i < maps; i++) {
-    gmshFree(map[i]);
-  }
-  gmshFree(map);
-  gmshFree(map_n);
-  return all;
-}
-
 // Prints the half-section of a body of this volume [mm3]: that of the first of PLANES half-planes
 // that is near it, revolved, else that of the largest one: the others meet ports.
 static void print_section(int body, double volume, bool chosen) {
@@ -414,7 +375,7 @@ static void print_section(int body, double volume, bool chosen) {
     size_t count;
     double each;
     bool wrong;
-    int *faces = cut(&count, &each, &wrong, body, box);
+    int *faces = sb_cad_cut(&count, &each, &wrong, body, box);
     failed = failed && wrong;
     const bool better = each > (1 + MORE) * most;
     gmshFree(better ? best : faces);
@@ -444,10 +405,7 @@ static void print_body(int body, int number, bool chosen) {
   // What the kernel writes where it was given no name.
   last = strncmp(last, "Open CASCADE STEP translator", 28) == 0 ? "" : last;
   g_autofree char *own = *last != '\0' ? g_strdup(last) : g_strdup_printf("body %d", number);
-  for (char *at = own; *at != '\0'; at++) {
-    *at = (unsigned char)*at < ' ' ? ' ' : *at;
-  }
-  fprintf(out, "body %s\n", own);
+  fprintf(out, "body %s\n", g_strdelimit(own, "\r\n", ' '));
   gmshFree(name);
   SbSolid solid;
   bool coarse;

@@ -284,7 +284,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
 SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
                         const SbCadChoices *choices, GError **error) {
   SbStl stl;
-  if (!sb_stl_parse(&stl, data, length, "m", path, error)) {
+  if (!sb_stl_read(&stl, data, length, "m", path, error)) {
     return NULL;
   }
   SbCad *cad = of_mesh(&stl, path, choices, error);

@@ -1,5 +1,6 @@
 // STEP files through sealbench-cad (helper.c), which limits its own processor time and memory. Time
 // on the clock has no influence: a loaded machine reads what an idle one reads.
+#include "app/base/beside.h"
 #include "app/cad/cad_private.h"
 
 #include <gio/gio.h>
@@ -10,21 +11,9 @@ enum { TEXT_MAX = 64 << 20 };
 
 // Beside this program where it is not installed, else in libexecdir.
 static char *helper_path(void) {
-  const char *given = g_getenv("SEALBENCH_CAD");
-  if (given != NULL) {
-    return g_strdup(given);
-  }
-  g_autofree char *self = g_file_read_link("/proc/self/exe", NULL);
-  g_autofree char *folder = self != NULL ? g_path_get_dirname(self) : g_strdup(".");
   static const char *const places[] = {SB_LIBEXEC_FROM_PROGRAM, ".", "..", NULL};
-  for (size_t i = 0; places[i] != NULL; i++) {
-    char *path = g_build_filename(folder, places[i], "sealbench-cad", NULL);
-    if (g_file_test(path, G_FILE_TEST_IS_EXECUTABLE)) {
-      return path;
-    }
-    g_free(path);
-  }
-  return NULL;
+  const char *given = g_getenv("SEALBENCH_CAD");
+  return given != NULL ? g_strdup(given) : sb_beside_program(places, "sealbench-cad");
 }
 
 // What the helper prints; NULL with an error.

@@ -323,10 +323,8 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
     scale[c] = 1;
-    if (m->column[c].unit == NULL || m->column[c].clock) {
-      continue;
-    }
-    if (!settle_unit(&scale[c], m, table, data, (SbChannel)c, issues)) {
+    if (m->column[c].unit != NULL && !m->column[c].clock &&
+        !settle_unit(&scale[c], m, table, data, (SbChannel)c, issues)) {
       return false;
     }
   }
@@ -456,19 +454,18 @@ static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed
     m->value[c] = m->column[c].at > 0 ? read[k++] : NULL;
   }
   m->count = m->lines.rows;
-  bool good = m->lines.skipped <= m->count ||
-              sb_issues_add(list, data->path, m->lines.left_line, NULL, NULL,
-                            "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
-                            m->lines.skipped, m->count, m->lines.left_text);
   m->dropped = m->lines.damaged;
   sb_measured_tests(m, table, read[count]);
   g_free(read[count]);
-  good = good && settle_rows(m, data, scale, list);
-  if (good && m->count < ROWS_MIN) {
-    good =
-        sb_issues_add(list, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
-  }
-  good = good && (m->speed == 0 || displace(m, data, list)) && sb_measured_find(m, data, list);
+  const bool good =
+      (m->lines.skipped <= m->lines.rows ||
+       sb_issues_add(list, data->path, m->lines.left_line, NULL, NULL,
+                     "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
+                     m->lines.skipped, m->count, m->lines.left_text)) &&
+      settle_rows(m, data, scale, list) &&
+      (m->count >= ROWS_MIN || sb_issues_add(list, data->path, 0, NULL, "at least 8 rows",
+                                             "has too few rows for a loop")) &&
+      (m->speed == 0 || displace(m, data, list)) && sb_measured_find(m, data, list);
   return good ? g_steal_pointer(&m) : NULL;
 }
 

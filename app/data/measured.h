@@ -130,14 +130,3 @@ typedef struct {
 // rows than `count_max`, means of equally many neighbours on one stroke take their place (then up
 // to two more points for each cycle). Freed by g_free().
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *measured, size_t count_max);
-
-// Scatter of several cycles: the stroke from 0 to `end` [m] is divided into equal pieces.
-enum { SB_MEASURED_BAND = 200 };
-typedef struct {
-  double end; // [m]
-  // [way][piece][0 minimum, 1 maximum] of the force in the cycles in use [N]; NaN: no row there
-  double force[2][SB_MEASURED_BAND][2];
-} SbMeasuredBand;
-
-// Computes the scatter of the cycles in use.
-void sb_measured_band(SbMeasuredBand *out, const SbMeasured *measured);
