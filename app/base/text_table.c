@@ -301,31 +301,27 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
   static const char marks[] = {'.', ','};
   *best = (Fit){0};
   Fit rival = {0};
-  for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
-    for (size_t m = 0; m < G_N_ELEMENTS(marks); m++) {
-      // In quotes, the separator can be a mark between thousands.
-      const SbTextTableDialect dialect = {
-          .encoding = table->dialect.encoding,
-          .separator = separators[s],
-          .decimal = marks[m],
-          .dates = wish->dates,
-          .thousands = separators[s] == SB_TEXT_TABLE_PAIRS ? '\0' : marks[1 - m],
-          .matrix = wish->matrix};
-      if ((wish->separator != '\0' && wish->separator != separators[s]) ||
-          (wish->decimal != '\0' && wish->decimal != marks[m]) ||
-          (separators[s] == marks[m] && !sample->quoted) ||
-          (separators[s] == SB_TEXT_TABLE_PAIRS && (marks[m] != ',' || !wish->matrix))) {
-        continue;
-      }
-      const Fit fit = try_dialect(sample, &dialect);
-      const bool commas = wish->matrix && best->dialect.decimal == ',' && separators[s] == ',';
-      if (fit.score > best->score) {
-        rival = (Fit){0};
-        *best = fit;
-      } else if (fit.score == best->score && fit.score > 0 &&
-                 (fit.dialect.separator == best->dialect.separator || commas)) {
-        rival = fit;
-      }
+  for (size_t i = 0; i < G_N_ELEMENTS(separators) * G_N_ELEMENTS(marks); i++) {
+    const char separator = separators[i / 2], mark = marks[i % 2];
+    const bool pairs = separator == SB_TEXT_TABLE_PAIRS;
+    if ((wish->separator != '\0' && wish->separator != separator) ||
+        (wish->decimal != '\0' && wish->decimal != mark) ||
+        (separator == mark && !sample->quoted) || (pairs && (mark != ',' || !wish->matrix))) {
+      continue;
+    }
+    SbTextTableDialect dialect = *wish;
+    dialect.encoding = table->dialect.encoding;
+    dialect.separator = separator;
+    dialect.decimal = mark;
+    dialect.thousands = pairs ? '\0' : marks[1 - i % 2]; // in quotes also the separator
+    const Fit fit = try_dialect(sample, &dialect);
+    const bool commas = wish->matrix && best->dialect.decimal == ',' && separator == ',';
+    if (fit.score > best->score) {
+      rival = (Fit){0};
+      *best = fit;
+    } else if (fit.score == best->score && fit.score > 0 &&
+               (fit.dialect.separator == best->dialect.separator || commas)) {
+      rival = fit;
     }
   }
   if (best->score == 0) {

@@ -283,14 +283,12 @@ void sb_text_table_take_header(SbTextTable *table) {
     stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;
     if (stopped || (!titled && !units)) {
       stopped |= found[0] && cells[0] != NULL;
-    } else if (!found[units]) {
-      take_header_line(table, cells, units);
-      found[units] = true;
     } else {
-      if (units && found[0]) { // units above the names too
-        take_header_line(table, cells, true);
+      stopped = found[units];
+      if (!stopped || (units && found[0])) { // units above the names too
+        take_header_line(table, cells, units);
       }
-      stopped = true;
+      found[units] = true;
     }
   }
   GPtrArray *texts = g_ptr_array_new();

@@ -47,9 +47,10 @@ typedef struct {
   guint crossed;       // pieces of closed entities that bound nothing: they cross themselves
 } SbCadLines;
 
-// Appends the outlines of the pieces (of SbPiece) of closed entities, above the axis and closed
-// by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
-// share vanish: they bound neither the material of both nor a recess, an outline at an edge.
+// Finds the first outlines, of the pieces (of SbPiece) of closed entities, above the axis and
+// closed by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two
+// entities share vanish: they bound neither the material of both nor a recess, an outline at an
+// edge.
 void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
 // Appends the outlines of other lines: the outer boundary of those that are connected. Lines within

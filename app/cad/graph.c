@@ -305,20 +305,19 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
 
 void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, double same) {
   g_autoptr(GArray) edges = tidied(pieces, same);
-  const guint before = half->outlines->len;
   for (guint i = edges->len; i-- > 0;) {
     if (g_array_index(edges, Drawn, i).times % 2 == 0) {
       g_array_remove_index(edges, i);
     }
   }
-  const guint all = edges->len;
+  half->crossed = edges->len;
   for (guint count = 0; count != edges->len;) {
     count = edges->len;
     GArray *inner = add_boundary(half->outlines, half->alone, edges, gap);
     g_array_unref(edges);
     edges = inner;
   }
-  half->crossed += half->outlines->len + half->alone->len == before ? all : 0;
+  half->crossed *= half->outlines->len + half->alone->len == 0;
 }
 
 void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double same) {
