@@ -93,7 +93,8 @@ typedef struct {
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
 // numbers of column[k] in the file's units (g_free()), times of day in seconds from midnight of the
 // first day, NaN for an empty cell; for the index table->columns, the row's block, from 0, cut at
-// blank lines and names, and where rows with a label in a column without texts begin or end. Returns false with one issue: memory, too many rows, ambiguous dates.
+// blank lines and names, and where rows with a label in a column without texts begin or end.
+// Returns false with one issue: memory, too many rows, ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 
