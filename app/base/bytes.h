@@ -3,7 +3,13 @@
 #pragma once
 
 #include <glib.h>
+#include <stdbool.h>
 #include <string.h>
+
+// Returns whether the `length` bytes at `p` begin with the text `start`.
+static inline bool sb_bytes_begin(const void *p, gsize length, const char *start) {
+  return length >= strlen(start) && memcmp(p, start, strlen(start)) == 0;
+}
 
 // Returns the integer in the 2 bytes at `p`.
 static inline guint16 sb_bytes_u16(const void *p) {

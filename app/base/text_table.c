@@ -3,7 +3,7 @@
 // equally but give other values are an issue. See text_table.h.
 #include "app/base/text_table.h"
 
-#include "app/base/reader.h"
+#include "app/base/bytes.h"
 #include "app/base/text_table_private.h"
 
 // Lines that are looked at.
@@ -13,8 +13,8 @@ typedef struct {
   bool quoted;  // one has a quote
 } Sample;
 
-// Largest table, longest line, and start that is looked at for the encoding [bytes].
-enum { BYTES_MAX = 1 << 30, LONGEST_LINE = 1 << 26, HEAD_BYTES = 1 << 16 };
+// Longest line, and start that is looked at for the encoding [bytes].
+enum { LONGEST_LINE = 1 << 26, HEAD_BYTES = 1 << 16 };
 enum { SAMPLE_LINES = 3000, SAMPLE_BYTES = 1 << 18, SAMPLE_TAIL = 300, LINE_BYTES = 1 << 16 };
 
 const char *const sb_text_table_encodings[] = {"any",      "utf-8",     "latin-1", "utf-16le",
@@ -39,11 +39,9 @@ static bool is_paired(const guint8 *bytes, size_t length, bool gbk) {
 
 static SbTextTableEncoding find_encoding(const guint8 *bytes, size_t length) {
   const size_t looked = MIN(length, HEAD_BYTES);
-  if (looked >= 2 && (memcmp(bytes, "\xff\xfe", 2) == 0 || memcmp(bytes, "\xfe\xff", 2) == 0)) {
-    return bytes[0] == 0xff ? SB_TEXT_TABLE_UTF16LE : SB_TEXT_TABLE_UTF16BE;
-  }
-  // Half of the bytes of digits in UTF-16 are zero, those of one side.
-  size_t zero[2] = {0};
+  // Half of the bytes of digits in UTF-16 are zero, those of one side; a mark states it too.
+  size_t zero[2] = {sb_bytes_begin(bytes, length, "\xfe\xff") ? looked : 0,
+                    sb_bytes_begin(bytes, length, "\xff\xfe") ? looked : 0};
   for (size_t i = 0; i < looked; i++) {
     zero[i % 2] += bytes[i] == 0;
   }
@@ -95,7 +93,7 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
   const bool newline = memchr(bytes, '\n', looked) != NULL || memchr(bytes, '\r', looked) == NULL;
   GString *narrowed = wide ? narrow((const guint8 *)bytes, length, big) : NULL;
   const char *from = wide ? narrowed->str : bytes, *end = from + (wide ? narrowed->len : length);
-  from += end - from >= 3 && memcmp(from, "\xef\xbb\xbf", 3) == 0 ? 3 : 0;
+  from += sb_bytes_begin(from, (size_t)(end - from), "\xef\xbb\xbf") ? 3 : 0;
   file->text = g_string_sized_new((size_t)(end - from) + 1);
   bool good = true;
   for (const char *stop; from < end && good; from = stop + 1) {
@@ -137,8 +135,7 @@ static const char *format_of(const char *bytes, size_t length) {
                                            {"[{", "JSON"},
                                            {"%PDF", "a PDF"}};
   size_t i = 0;
-  while (i < G_N_ELEMENTS(formats) && (length < strlen(formats[i][0]) ||
-                                       memcmp(bytes, formats[i][0], strlen(formats[i][0])) != 0)) {
+  while (i < G_N_ELEMENTS(formats) && !sb_bytes_begin(bytes, length, formats[i][0])) {
     i++;
   }
   return i < G_N_ELEMENTS(formats) ? formats[i][1] : NULL;
@@ -193,7 +190,7 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
     if (sb_text_table_number(&value, &cell, dialect, &shape.saw) &&
         (!pairs || isnan(value) || (decimals > 0 && decimals == shape.decimals))) {
       shape.numeric |= bit;
-    } else if (!dialect->matrix && sb_text_table_clock(&clock, &cell)) {
+    } else if (!dialect->matrix && sb_text_table_clock(&clock, &cell, dialect->dates)) {
       shape.clocks |= bit;
     } else if (!sb_text_table_void(&cell)) {
       shape.texts |= bit;
@@ -304,31 +301,27 @@ static bool find_dialect(Fit *best, const SbTextTable *table, const Sample *samp
   static const char marks[] = {'.', ','};
   *best = (Fit){0};
   Fit rival = {0};
-  for (size_t s = 0; s < G_N_ELEMENTS(separators); s++) {
-    for (size_t m = 0; m < G_N_ELEMENTS(marks); m++) {
-      // In quotes, the separator can be a mark between thousands.
-      const SbTextTableDialect dialect = {
-          .encoding = table->dialect.encoding,
-          .separator = separators[s],
-          .decimal = marks[m],
-          .dates = wish->dates,
-          .thousands = separators[s] == SB_TEXT_TABLE_PAIRS ? '\0' : marks[1 - m],
-          .matrix = wish->matrix};
-      if ((wish->separator != '\0' && wish->separator != separators[s]) ||
-          (wish->decimal != '\0' && wish->decimal != marks[m]) ||
-          (separators[s] == marks[m] && !sample->quoted) ||
-          (separators[s] == SB_TEXT_TABLE_PAIRS && (marks[m] != ',' || !wish->matrix))) {
-        continue;
-      }
-      const Fit fit = try_dialect(sample, &dialect);
-      const bool commas = wish->matrix && best->dialect.decimal == ',' && separators[s] == ',';
-      if (fit.score > best->score) {
-        rival = (Fit){0};
-        *best = fit;
-      } else if (fit.score == best->score && fit.score > 0 &&
-                 (fit.dialect.separator == best->dialect.separator || commas)) {
-        rival = fit;
-      }
+  for (size_t i = 0; i < G_N_ELEMENTS(separators) * G_N_ELEMENTS(marks); i++) {
+    const char separator = separators[i / 2], mark = marks[i % 2];
+    const bool pairs = separator == SB_TEXT_TABLE_PAIRS;
+    if ((wish->separator != '\0' && wish->separator != separator) ||
+        (wish->decimal != '\0' && wish->decimal != mark) ||
+        (separator == mark && !sample->quoted) || (pairs && (mark != ',' || !wish->matrix))) {
+      continue;
+    }
+    SbTextTableDialect dialect = *wish;
+    dialect.encoding = table->dialect.encoding;
+    dialect.separator = separator;
+    dialect.decimal = mark;
+    dialect.thousands = pairs ? '\0' : marks[1 - i % 2]; // in quotes also the separator
+    const Fit fit = try_dialect(sample, &dialect);
+    const bool commas = wish->matrix && best->dialect.decimal == ',' && separator == ',';
+    if (fit.score > best->score) {
+      rival = (Fit){0};
+      *best = fit;
+    } else if (fit.score == best->score && fit.score > 0 &&
+               (fit.dialect.separator == best->dialect.separator || commas)) {
+      rival = fit;
     }
   }
   if (best->score == 0) {
@@ -385,7 +378,6 @@ static void find_block(SbTextTable *table, const Sample *sample) {
       table->file->names = g_strdup(block.names);
     }
   }
-  table->header_lines += sb_text_table_labelled(table, table->header_lines, 1);
   g_free(block.names);
 }
 
@@ -447,27 +439,18 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
   const SbTextTableEncoding key = wish->encoding;
   table->dialect.encoding = key != SB_TEXT_TABLE_ANY_ENCODING ? key : find_encoding(bytes, length);
   const char *format = format_of(bytes, length);
-  const char *wrong =
-      format == NULL ? split_lines(file, bytes, length, table->dialect.encoding) : NULL;
-  if (format != NULL || wrong != NULL) {
+  const char *wrong = length == 0      ? "is empty"
+                      : format != NULL ? format
+                                       : split_lines(file, bytes, length, table->dialect.encoding);
+  if (wrong != NULL) {
     sb_issues_add(issues, name, 0, NULL, NULL,
-                  wrong != NULL ? "%s" : "is %s: export it as text, such as CSV",
-                  wrong != NULL ? wrong : format);
+                  format != NULL ? "is %s: export it as text, such as CSV" : "%s", wrong);
     return NULL;
   }
   const Sample sample = take_sample(file->line);
   const bool good = recognise(table, &sample, wish, issues);
   g_array_unref(sample.line);
   return good ? g_steal_pointer(&table) : NULL;
-}
-
-SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish, GPtrArray *list) {
-  size_t length = 0;
-  g_autofree char *bytes = sb_reader_load(&length, path, path, BYTES_MAX, list);
-  if (bytes != NULL && length == 0) {
-    sb_issues_add(list, path, 0, NULL, NULL, "is empty");
-  }
-  return length > 0 ? sb_text_table_parse(bytes, length, wish, path, list) : NULL;
 }
 
 void sb_text_table_free(SbTextTable *table) {

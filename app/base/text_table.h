@@ -11,7 +11,7 @@
 // not read. The lines above the table are its header: its last ones give names and units. A unit is
 // in brackets, follows "in", "/", "_" or a blank, or is in a line of units. An ambiguous file (all
 // commas before three digits: decimals or thousands?) is refused with both interpretations in the
-// message. The text, 1 GiB at most, is in memory until the table is freed.
+// message. The text is in memory until the table is freed.
 #pragma once
 
 #include "app/base/issue.h"
@@ -69,11 +69,8 @@ typedef struct {
   struct SbTextTableFile *file;                        // internal
 } SbTextTable;
 
-// Opens the file `path` and recognises its format; `wish` (NULL: nothing) specifies what is known.
-// Returns NULL with one issue if it cannot be read or is not a table.
-SbTextTable *sb_text_table_open(const char *path, const SbTextTableDialect *wish, GPtrArray *list);
-
-// As sb_text_table_open(), from the `length` bytes of a file; `name` is its path in messages.
+// Recognises the format of the `length` bytes of a file, whose path in messages is `name`; `wish`
+// (NULL: nothing) specifies what is known. Returns NULL with one issue if it is not a table.
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues);
 
@@ -96,7 +93,8 @@ typedef struct {
 // Reads the columns column[count] (indices) of all rows: value[k] becomes an array [rows] of the
 // numbers of column[k] in the file's units (g_free()), times of day in seconds from midnight of the
 // first day, NaN for an empty cell; for the index table->columns, the row's block, from 0, cut at
-// blank lines and names. Returns false with one issue: memory, too many rows, ambiguous dates.
+// blank lines and names, and where rows with a label in a column without texts begin or end.
+// Returns false with one issue: memory, too many rows, ambiguous dates.
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues);
 

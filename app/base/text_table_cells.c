@@ -147,8 +147,7 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
       plain[count++] = *c++;
     } else if (whole && run > 0 && (grouped ? run == 3 : run <= 3 && first != '0') &&
                (length = group_mark(c, end, dialect->thousands)) > 0) {
-      seen |= SB_TEXT_TABLE_SAW_GROUPS | (*c == ' ' ? SB_TEXT_TABLE_SAW_BLANK : 0) |
-              (*c == dialect->thousands ? SB_TEXT_TABLE_SAW_MARK : 0);
+      seen |= SB_TEXT_TABLE_SAW_GROUPS | (*c == ' ' ? SB_TEXT_TABLE_SAW_BLANK : 0);
       run = 0;
       c += length;
     } else if (whole && *c == dialect->decimal) {
@@ -181,7 +180,17 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
   return true;
 }
 
-bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
+// Returns the number of a day; 0: there is no such date.
+static guint32 day_of(int day, int month, int year) {
+  GDate at;
+  g_date_clear(&at, 1);
+  if (day <= 31 && month <= 12 && g_date_valid_dmy((GDateDay)day, month, (GDateYear)year)) {
+    g_date_set_dmy(&at, (GDateDay)day, month, (GDateYear)year);
+  }
+  return g_date_valid(&at) ? g_date_get_julian(&at) : 0;
+}
+
+bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell, char dates) {
   static const char form[] = "^(?:(\\d{1,4})([./-])(\\d\\d?)\\2(\\d{1,4})[ T])?(\\d\\d?):"
                              "(\\d\\d?):(\\d\\d?)(?:[.,](\\d*))? *(?:([AP])M)?$";
   enum { YEAR = 1, MARK, MONTH, DAY, HOUR, MINUTE, SECOND, FRACTION, HALF, PARTS };
@@ -205,27 +214,14 @@ bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell) {
   const double fraction = digits > 0 ? strtod(part[FRACTION], NULL) / pow(10, digits) : 0;
   const bool late = g_ascii_toupper(*part[HALF]) == 'P';
   const int hour = *part[HALF] != '\0' ? n[HOUR] % 12 + 12 * late : n[HOUR];
-  *out = (SbTextTableClock){.seconds = hour * 3600 + n[MINUTE] * 60 + n[SECOND] + fraction,
-                            .date = {n[YEAR], n[MONTH], n[DAY]},
-                            .mark = *part[MARK]};
+  const bool year_first = n[YEAR] > 31;
+  const guint32 day_first =
+      day_of(year_first ? n[DAY] : n[YEAR], n[MONTH], n[year_first ? YEAR : DAY]);
+  const guint32 month_first = year_first ? 0 : day_of(n[MONTH], n[YEAR], n[DAY]);
+  const bool either = day_first > 0 && month_first > 0 && day_first != month_first;
+  *out = (SbTextTableClock){
+      .seconds = hour * 3600 + n[MINUTE] * 60 + n[SECOND] + fraction,
+      .day = day_first == 0 || (either && dates == 'm') ? month_first : day_first,
+      .ambiguous = either && dates == '\0' && *part[MARK] != '.'}; // a point: day first
   return n[HOUR] <= 23 && n[MINUTE] <= 59 && n[SECOND] <= 60;
-}
-
-bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates) {
-  const int *date = clock->date;
-  const bool year_first = date[0] > 31;
-  const bool month_first = !year_first && (date[1] > 12 || (dates == 'm' && date[0] <= 12));
-  const int year = year_first ? date[0] : date[2];
-  const int month = month_first ? date[0] : date[1];
-  const int day = year_first ? date[2] : month_first ? date[1] : date[0];
-  // 03/02: a point alone is between day and month.
-  const bool ambiguous = dates == '\0' && !year_first && !month_first && date[0] <= 12 &&
-                         clock->mark != '.' && date[0] != date[1];
-  if (ambiguous ||
-      !g_date_valid_dmy((GDateDay)MIN(day, 200), (GDateMonth)MIN(month, 200), (GDateYear)year)) {
-    return false;
-  }
-  g_autoptr(GDate) at = g_date_new_dmy((GDateDay)day, (GDateMonth)month, (GDateYear)year);
-  *days = (long)g_date_get_julian(at);
-  return true;
 }

@@ -176,7 +176,7 @@ static bool names_columns(const SbTextTable *table, char *const *cells) {
     const SbTextTableCell cell = {cells[count], strlen(cells[count])};
     const bool empty = sb_text_table_void(&cell);
     if (!empty && (sb_text_table_number(&value, &cell, &table->dialect, NULL) ||
-                   sb_text_table_clock(&clock, &cell))) {
+                   sb_text_table_clock(&clock, &cell, table->dialect.dates))) {
       return false;
     }
     texts += count < table->columns && !empty;
@@ -283,14 +283,12 @@ void sb_text_table_take_header(SbTextTable *table) {
     stopped = (shape.numeric | shape.clocks) != 0 && shape.texts == 0;
     if (stopped || (!titled && !units)) {
       stopped |= found[0] && cells[0] != NULL;
-    } else if (!found[units]) {
-      take_header_line(table, cells, units);
-      found[units] = true;
     } else {
-      if (units && found[0]) { // units above the names too
-        take_header_line(table, cells, true);
+      stopped = found[units];
+      if (!stopped || (units && found[0])) { // units above the names too
+        take_header_line(table, cells, units);
       }
-      stopped = true;
+      found[units] = true;
     }
   }
   GPtrArray *texts = g_ptr_array_new();

@@ -28,7 +28,6 @@ enum {
   SB_TEXT_TABLE_SAW_GROUPS = 2, // a mark between thousands
   SB_TEXT_TABLE_SAW_LONG = 4,   // four digits or more and no mark between them
   SB_TEXT_TABLE_SAW_BLANK = 8,  // a blank between thousands
-  SB_TEXT_TABLE_SAW_MARK = 32,  // a point or comma between thousands
   SB_TEXT_TABLE_SAW_PADDED = 16 // a zero before other digits, or -0: no program writes integers so
 };
 
@@ -39,16 +38,13 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
 // A time of day, with a date.
 typedef struct {
   double seconds; // since midnight [s]
-  int date[3];    // the three numbers of the date in their order; 0: no date
-  char mark;      // character between them
+  guint32 day;    // number of the date's day, from a fixed one; 0: no date, or none that exists
+  bool ambiguous; // day and month may be in either order
 } SbTextTableClock;
 
-// Reads a cell as a time of day. Returns false if it is none.
-bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell);
-
-// Writes the days from a fixed day to the date that `clock` must have. Returns false if it is no
-// date, or if day and month are ambiguous and `dates` (of a dialect) does not state their order.
-bool sb_text_table_days(long *days, const SbTextTableClock *clock, char dates);
+// Reads a cell as a time of day; `dates` (of a dialect) states the order of day and month. Returns
+// false if it is none.
+bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell, char dates);
 
 // Kinds of a line's cells, a bit each.
 typedef struct {
@@ -86,10 +82,6 @@ static inline const GString *sb_text_table_line(const SbTextTable *table, size_t
 
 // Returns whether a line has values where the rows of the table have them.
 bool sb_text_table_is_row(const SbTextTable *table, const GString *line);
-
-// Returns the number of lines, from `line` on by steps of 1 or -1, with a label in a column without
-// texts, such as Min or Mean; 0 if they are more than a results block has.
-size_t sb_text_table_labelled(const SbTextTable *table, size_t line, int step);
 
 // Moves to the next line: `row` states whether it is a row of the table.
 void sb_text_table_block_next(SbTextTableBlock *block, bool row, const GString *line,

@@ -9,20 +9,15 @@ typedef struct {
   double day; // seconds of whole days so far
 } Days;
 
-static bool add_days(double *out, Days *days, const SbTextTableClock *clock, char dates) {
-  if (days->begun && memcmp(clock->date, days->last.date, sizeof clock->date) != 0) {
-    long old, now;
-    if (!sb_text_table_days(&old, &days->last, dates) || !sb_text_table_days(&now, clock, dates)) {
-      return false;
-    }
-    days->day += 86400.0 * (double)(now - old);
-  } else if (days->begun && clock->date[0] == 0 && clock->seconds < days->last.seconds - 43200) {
-    days->day += 86400; // past midnight
-  }
+static bool add_days(double *out, Days *days, const SbTextTableClock *clock) {
+  const SbTextTableClock last = days->begun ? days->last : *clock;
+  const bool midnight = clock->day == 0 && clock->seconds < last.seconds - 43200;
+  days->day += 86400.0 * ((double)clock->day - last.day + midnight);
   days->begun = true;
   days->last = *clock;
   *out = days->day + clock->seconds;
-  return true;
+  return clock->day == last.day ||
+         (clock->day > 0 && last.day > 0 && !clock->ambiguous && !last.ambiguous);
 }
 
 static const char ambiguous_date[] = "is ambiguous: the date advances by a day or by a month";
@@ -51,8 +46,8 @@ static const char *read_line(Line *out, double *row, Days *days, const SbTextTab
     bool read;
     if (!table->column[at].clock) {
       read = sb_text_table_number(&row[k], &cell[at], &table->dialect, NULL);
-    } else if ((read = sb_text_table_clock(&clock, &cell[at])) && out->good &&
-               !add_days(&row[k], &days[k], &clock, table->dialect.dates)) {
+    } else if ((read = sb_text_table_clock(&clock, &cell[at], table->dialect.dates)) && out->good &&
+               !add_days(&row[k], &days[k], &clock)) {
       wrong = ambiguous_date;
     }
     out->any |= read;
@@ -72,30 +67,6 @@ static void leave_line(SbTextTableRows *out, int number, const GString *text, bo
   }
 }
 
-size_t sb_text_table_labelled(const SbTextTable *table, size_t line, int step) {
-  enum { LABELLED_MAX = 12 };
-  const SbTextTableFile *file = table->file;
-  for (size_t count = 0; count <= LABELLED_MAX && line < file->line->len; count++) {
-    const GString *text = sb_text_table_line(table, line);
-    if ((sb_text_table_shape(text, &table->dialect).texts & ~file->texts) == 0) {
-      return count;
-    }
-    line += (size_t)step;
-  }
-  return 0;
-}
-
-// Leaves out the last rows before line `number`, of a run of `run` rows, that have a label. Returns
-// 0.
-static size_t leave_labelled(SbTextTableRows *out, const SbTextTable *table, size_t number,
-                             size_t run) {
-  const size_t labelled = run > 0 ? sb_text_table_labelled(table, number - 1, -1) : 0;
-  for (size_t k = labelled; k > 0 && labelled < run; k--, out->rows--) {
-    leave_line(out, (int)(number - k + 1), sb_text_table_line(table, number - k), false);
-  }
-  return 0;
-}
-
 bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable *table,
                         const size_t *column, size_t count, GPtrArray *issues) {
   *out = (SbTextTableRows){0};
@@ -103,9 +74,9 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
   double row[SB_TEXT_TABLE_COLUMNS_MAX];
   SbTextTableBlock block = {.names = g_strdup(table->file->names)};
   const char *wrong = NULL;
-  bool blank = false, cut = false, other = false;
+  bool blank = false, cut = false, other = false, label = false; // label: of the last row
   const size_t lines = table->file->line->len, room = MIN(lines + 1, SB_TEXT_TABLE_ROWS_MAX);
-  size_t begun = 0, number = 0, run = 0; // blocks behind blank lines or names; of the line; rows
+  size_t begun = 0, number = 0; // blocks of rows; of the line
   for (size_t k = 0; k < count; k++) {
     value[k] = g_try_new(double, room);
     wrong = value[k] == NULL ? "needs too much memory for its rows" : wrong;
@@ -124,7 +95,11 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
     other = line.cells != table->columns && (other || (blank && line.cells > 0));
     const bool like = line.good && line.any && !other;
     blank = line.cells == 0;
-    begun += like && (cut || block.headed);
+    const guint64 texts = // all cells are read if there is no other column
+        like && count <= table->columns ? sb_text_table_shape(text, &table->dialect).texts : 0;
+    const bool labelled = (texts & ~table->file->texts) != 0;
+    begun += like && (cut || block.headed || labelled != label);
+    label = like ? labelled : label;
     cut = !like && (cut || blank);
     sb_text_table_block_next(&block, like, text, table);
     if (like && (block.names == NULL || g_strcmp0(block.names, table->file->names) == 0)) {
@@ -133,17 +108,12 @@ bool sb_text_table_read(SbTextTableRows *out, double **value, const SbTextTable 
         value[k][out->rows] = column[k] < table->columns ? row[k] : (double)begun;
       }
       out->rows += wrong == NULL;
-      run++;
-      continue;
-    }
-    run = leave_labelled(out, table, number - 1, run);
-    if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
+    } else if (line.cells > 0 && (line.any || line.unreadable > 0 || !line.good)) {
       const bool damaged = memchr(text->str, '\0', text->len) != NULL || (other && line.good) ||
                            (line.cells == table->columns && line.any && line.unreadable == 1);
       leave_line(out, (int)number, text, damaged);
     }
   }
-  leave_labelled(out, table, lines, run);
   for (size_t k = 0; k < count; k++) { // freed where its size becomes 0
     value[k] = g_renew(double, value[k], wrong == NULL ? MAX(out->rows, 1) : 0);
   }

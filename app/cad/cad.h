@@ -76,7 +76,8 @@ typedef struct {
   // Angle of the cutting half-plane about the axis, right-handed [rad]; not for DXF. 0: STEP: the y
   // axis of the file, turned with x when x is turned to the axis by the shortest way; STL: the
   // file's axis after the one nearest to the axis (x after z), made perpendicular to it. NULL:
-  // STEP: 37.7 degrees; STL: through a vertex farthest from the axis.
+  // STEP: 37.7 degrees; STL: through a vertex farthest from the axis; the largest of eight
+  // half-sections where that one, revolved, has another volume than the body.
   const double *angle;
   double join;  // DXF: largest gap between ends that are one point [m]; 0: 1 um
   double shift; // added to x after `flip` [m]
@@ -122,7 +123,7 @@ char *sb_cad_profile_text(const SbCadBody *body);
 // STL repeats its corners, and rounds each time. Corners that differ by at most 1e-5 of the
 // diagonal of the part's bounding box along every axis (or by two units of single precision, far
 // from the origin) become one vertex, the first of them. Triangles that lose a corner by that are
-// removed and counted. Volume and moments change by as much. A file that is not STL, is incomplete,
+// removed. Volume and moments change by as much. A file that is not STL, is incomplete,
 // has more than SB_STL_TRIANGLES_MAX triangles or a number that is not finite is refused.
 enum { SB_STL_TRIANGLES_MAX = 2000000 };
 
@@ -133,20 +134,16 @@ typedef struct {
   gsize *body;          // [triangle_count]: number of its body, below triangle_count
   gsize vertex_count;   //
   gsize triangle_count; //
-  gsize dropped;        // triangles removed because two corners coincide
   gsize turned;         // triangles reversed to face outwards (sb_mesh_orient())
-  gboolean text;        // the file was in the text format
 } SbStl;
 
-// Reads the file `path`, whose numbers are in `unit`: any unit of length that udunits-2 knows
-// ("mm", "um", "inch", "m", ...). Returns FALSE with SB_APP_ERROR_IO (the file cannot be read) or
-// SB_APP_ERROR_INPUT (its contents, or the unit); the message names the file and the place. *out is
-// then empty. *out is overwritten: clear an earlier mesh first.
-gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error);
-
-// As sb_stl_read(), from the `length` bytes of a file; `name` is used as its path in messages.
-gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
-                      const char *name, GError **error);
+// Reads the `length` bytes of the file `path`, NULL: the file itself. Its numbers are in `unit`:
+// any unit of length that udunits-2 knows ("mm", "um", "inch", "m", ...). Returns FALSE with
+// SB_APP_ERROR_IO (the file cannot be read) or SB_APP_ERROR_INPUT (its contents, or the unit); the
+// message names the file and the place. *out is then empty. *out is overwritten: clear an earlier
+// mesh first.
+gboolean sb_stl_read(SbStl *out, const char *data, gsize length, const char *unit, const char *path,
+                     GError **error);
 
 // Writes the corners of the bounding box of points[count][3]; of no points, INFINITY and -INFINITY.
 void sb_stl_extent(const double *points, gsize count, double low[3], double high[3]);

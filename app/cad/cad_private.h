@@ -47,9 +47,10 @@ typedef struct {
   guint crossed;       // pieces of closed entities that bound nothing: they cross themselves
 } SbCadLines;
 
-// Appends the outlines of the pieces (of SbPiece) of closed entities, above the axis and closed
-// by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two entities
-// share vanish: they bound neither the material of both nor a recess, an outline at an edge.
+// Finds the first outlines, of the pieces (of SbPiece) of closed entities, above the axis and
+// closed by it. Ends within `gap` are one point, pieces within `same` are one [m]. Edges that two
+// entities share vanish: they bound neither the material of both nor a recess, an outline at an
+// edge.
 void sb_cad_add_closed(SbCadLines *lines, const GArray *pieces, double gap, double same);
 
 // Appends the outlines of other lines: the outer boundary of those that are connected. Lines within
@@ -98,6 +99,11 @@ SbCad *sb_cad_new(const char *format);
 // this tag in gmsh's kernel; not `mass`. Writes to *coarse whether they can be wrong by 1 %.
 // Returns false if the kernel cannot measure it. Only in sealbench-cad.
 bool sb_cad_measure(SbSolid *solid, int body, bool *coarse);
+
+// Returns the faces, freed by gmshFree(), that a body and the half-plane y > 0, z = 0 have in
+// common, their number, and the volume of their revolution [mm3] by the theorem of Pappus. `box`:
+// that of the body. *failed: the kernel cannot cut it. Only in sealbench-cad.
+int *sb_cad_cut(size_t *count, double *volume, bool *failed, int body, const double box[6]);
 
 // Reads a STEP file by sealbench-cad into a settled drawing (sb_cad_settle()). `shown` is the
 // printable path for messages. Errors as sb_cad_read().

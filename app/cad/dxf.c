@@ -6,6 +6,7 @@
 //
 // LINE, ELLIPSE, SPLINE and 3D polylines are in world coordinates. The others are in object
 // coordinates, whose x is reversed if the extrusion direction is (0, 0, -1).
+#include "app/base/bytes.h"
 #include "app/cad/dxf_private.h"
 #include "app/cad/dxf_words.def"
 
@@ -400,28 +401,37 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
   return cad;
 }
 
+// Returns a table of texts that it owns to values that `clear` frees.
+static GHashTable *table_of(GDestroyNotify clear) {
+  return g_hash_table_new_full(g_str_hash, g_str_equal, g_free, clear);
+}
+
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error) {
-  const gsize skipped = length >= 3 && memcmp(text, "\xEF\xBB\xBF", 3) == 0 ? 3 : 0;
-  Block model = {.items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem))};
+  const gsize skipped = sb_bytes_begin(text, length, "\xEF\xBB\xBF") ? 3 : 0;
+  g_autoptr(GHashTable) blocks = table_of(block_free), hidden = table_of(NULL);
+  g_autoptr(GHashTable) line_types = table_of(g_free), left_out = table_of(NULL);
+  g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
+  g_autoptr(GPtrArray) layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref);
+  g_autoptr(GArray) centre = g_array_new(FALSE, FALSE, sizeof(SbPiece));
+  g_autoptr(GArray) items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
+  Block model = {.items = items};
+  const char separator = memchr(text, '\n', length) != NULL ? '\n' : '\r';
   Drawing drawing = {
-      .text = {.next.at = text + skipped,
-               .end = text + length,
-               .separator = memchr(text, '\n', length) != NULL ? '\n' : '\r'},
+      .text = {.next.at = text + skipped, .end = text + length, .separator = separator},
       .model = &model,
-      .blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free),
-      .hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
-      .line_types = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free),
-      .left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL),
-      .names = g_ptr_array_new_with_free_func(g_free),
-      .layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref),
-      .centre = g_array_new(FALSE, FALSE, sizeof(SbPiece)),
+      .blocks = blocks,
+      .hidden = hidden,
+      .line_types = line_types,
+      .names = names,
+      .layers = layers,
+      .left_out = left_out,
+      .centre = centre,
       .low = INFINITY,
-      .unit = g_strdup(choices->unit),
-  };
+      .unit = g_strdup(choices->unit)};
   GError *problem = NULL;
   SbCad *cad = NULL;
-  if (length >= 22 && memcmp(text, "AutoCAD Binary DXF", 18) == 0) {
+  if (sb_bytes_begin(text, length, "AutoCAD Binary DXF")) {
     sb_app_error_input(&problem, "is a binary DXF: save it as text (ASCII)");
   } else if (choices->axis != NULL && choices->axis[2] != 0) {
     sb_app_error_choose(&problem, "axis", "x\ny", "a DXF has the axes x and y, not z");
@@ -432,14 +442,6 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
     sb_app_error_prefix(&problem, name);
     g_propagate_error(error, problem);
   }
-  g_array_unref(model.items);
-  g_hash_table_unref(drawing.blocks);
-  g_hash_table_unref(drawing.hidden);
-  g_hash_table_unref(drawing.line_types);
-  g_hash_table_unref(drawing.left_out);
-  g_ptr_array_unref(drawing.names);
-  g_ptr_array_unref(drawing.layers);
-  g_array_unref(drawing.centre);
   g_free(drawing.unit);
   return cad;
 }

@@ -9,10 +9,6 @@ enum { NEAR_MAX = 1000000 };
 // Ends that are closer are one point, and shorter pieces are ignored [m].
 static const double TINY = 1e-9;
 
-static SbPiece reversed(SbPiece piece) {
-  return (SbPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
-}
-
 // A piece with the circle about its middle in which it is.
 typedef struct {
   SbPiece piece;
@@ -110,7 +106,7 @@ typedef struct {
 // Returns the edge as it is left from an end.
 static SbPiece piece_from(const Graph *graph, guint end) {
   const SbPiece piece = g_array_index(graph->edges, Drawn, end / 2).piece;
-  return end % 2 == 0 ? piece : reversed(piece);
+  return end % 2 == 0 ? piece : (SbPiece){piece.x1, piece.y1, piece.x0, piece.y0, -piece.bulge};
 }
 
 // Joins the ends at one point, and each end off the axis that is then alone to the nearest one
@@ -309,20 +305,19 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
 
 void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, double same) {
   g_autoptr(GArray) edges = tidied(pieces, same);
-  const guint before = half->outlines->len;
   for (guint i = edges->len; i-- > 0;) {
     if (g_array_index(edges, Drawn, i).times % 2 == 0) {
       g_array_remove_index(edges, i);
     }
   }
-  const guint all = edges->len;
+  half->crossed = edges->len;
   for (guint count = 0; count != edges->len;) {
     count = edges->len;
     GArray *inner = add_boundary(half->outlines, half->alone, edges, gap);
     g_array_unref(edges);
     edges = inner;
   }
-  half->crossed += half->outlines->len + half->alone->len == before ? all : 0;
+  half->crossed *= half->outlines->len + half->alone->len == 0;
 }
 
 void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double same) {

@@ -1,8 +1,8 @@
 // sealbench-cad FILE.step ANGLE DX DY DZ PX PY PZ: the bodies of a STEP file as text on standard
 // output, by gmsh and its OpenCASCADE kernel. A program of its own: a kernel that crashes, hangs or
 // takes memory without end on a hostile file ends here, within the limits set below. Lengths in m,
-// the axis along x; each body cut by the half-plane at ANGLE [rad] about it. DX and PX: direction
-// and a point [m] of the axis; "nan": found. The text:
+// the axis along x; each body cut by the half-plane at ANGLE [rad] about it; "nan": by one that
+// meets no port. DX and PX: direction and a point [m] of the axis; "nan": found. The text:
 //   axis px py pz dx dy dz            in the file's place, a point and a direction
 //   body NAME
 //   solid V V cx cy cz Ixx Ixy ... Izz     SbSolid: volume, mass, centre, moments at 1 kg/m3
@@ -29,6 +29,11 @@
 // The kernel works in mm, for which its tolerances are made.
 static const double SCALE = 1e-3;
 enum { PIECES_MAX = 100000 };
+
+// Half-plane that is tried first [rad], off those in which ports and flats are drawn; how near the
+// volumes of a body and its half-section, revolved, are where no other one is tried; how much more
+// another one must give, relative.
+static const double OFF_PORTS = 0.658, NEAR = 0.02, MORE = 1e-3;
 static const rlim_t MEMORY_MAX = (rlim_t)4 << 30;
 
 // What standard output was: the kernel prints there as it likes, from now on to nowhere.
@@ -90,68 +95,62 @@ static void nearest_point(Axis *axis, bool oriented) {
 enum { GRID = 5, SAMPLES = GRID * GRID, AXES_MAX = 5000 };
 static const double ZERO = 1e-3, PARALLEL = 1e-8, SAME = 1e-3;
 
-// Writes points and unit normals of a face; returns whether the kernel gives them.
-static bool sample(double q[SAMPLES][3], double n[SAMPLES][3], int tag) {
-  double *low = NULL, *high = NULL, *at = NULL, *normal = NULL, where[2 * SAMPLES];
+// Gives points and unit normals of a face, freed by gmshFree(); returns whether the kernel has
+// them.
+static bool sample(double **at, double **normal, int tag) {
+  double *low = NULL, *high = NULL, where[2 * SAMPLES];
   size_t n_low = 0, n_high = 0, n_at = 0, n_normal = 0;
-  int ierr;
+  int ierr, wrong = 1;
   gmshModelGetParametrizationBounds(2, tag, &low, &n_low, &high, &n_high, &ierr);
-  bool good = ierr == 0 && n_low == 2 && n_high == 2;
-  for (int i = 0; good && i < 2 * SAMPLES; i++) {
-    const int step = i % 2 == 0 ? i / 2 % GRID : i / 2 / GRID;
-    where[i] = low[i % 2] + (step + 0.4) / GRID * (high[i % 2] - low[i % 2]); // off poles and seams
+  if (ierr == 0 && n_low == 2 && n_high == 2) {
+    for (int i = 0; i < 2 * SAMPLES; i++) { // off poles and seams
+      const int step = i % 2 == 0 ? i / 2 % GRID : i / 2 / GRID;
+      where[i] = low[i % 2] + (step + 0.4) / GRID * (high[i % 2] - low[i % 2]);
+    }
+    gmshModelGetValue(2, tag, where, 2 * SAMPLES, at, &n_at, &ierr);
+    gmshModelGetNormal(tag, where, 2 * SAMPLES, normal, &n_normal, &wrong);
   }
-  if (good) {
-    gmshModelGetValue(2, tag, where, 2 * SAMPLES, &at, &n_at, &ierr);
-    good = ierr == 0 && n_at == 3 * SAMPLES;
-    gmshModelGetNormal(tag, where, 2 * SAMPLES, &normal, &n_normal, &ierr);
-    good = good && ierr == 0 && n_normal == 3 * SAMPLES;
-  }
+  gmshFree(low);
+  gmshFree(high);
+  bool good = ierr + wrong == 0 && n_at == 3 * SAMPLES && n_normal == 3 * SAMPLES;
   for (int i = 0; good && i < 3 * SAMPLES; i++) {
-    q[i / 3][i % 3] = at[i];
-    n[i / 3][i % 3] = normal[i];
-    good = isfinite(at[i]) && isfinite(normal[i]);
-  }
-  double *const arrays[] = {low, high, at, normal};
-  for (int i = 0; i < 4; i++) {
-    gmshFree(arrays[i]);
+    good = isfinite((*at)[i]) && isfinite((*normal)[i]);
   }
   return good;
 }
 
 // Writes the direction of an axis, and to `p` its point nearest to the centre or the centre of a
-// ball, from the last `count` columns of v[6][6] (d and m of a line).
-static Kind axis_of_rows(Axis *axis, double p[3], const double v[36], int count) {
-  double gram[3][3] = {{0}}, sum[3] = {0}, moment[3] = {0}, longest = 0;
-  for (int j = 6 - count; j < 6; j++) {
-    const double d[3] = {v[j], v[6 + j], v[12 + j]}, m[3] = {v[18 + j], v[24 + j], v[30 + j]};
-    const double square = dot(d, d);
-    double turned[3];
-    cross(turned, d, m);
-    for (int k = 0; k < 9; k++) { // d x (p x d) = (d.d - d d') p
-      gram[k / 3][k % 3] += (k % 4 == 0) * square - d[k / 3] * d[k % 3];
+// ball, from the last `count` columns of v[6][6] (d and m of a line): the shortest solution of
+// p x d = m for all of them.
+static Kind axis_of_columns(Axis *axis, double p[3], const double v[36], int count) {
+  double a[27] = {0}, moments[9] = {0}, turns[9], s[3], work[3], longest = 0, pitch = 0;
+  for (int j = 0; j < count; j++) {
+    const double *from = v + 6 - count + j;
+    const double d[3] = {from[0], from[6], from[12]}, m[3] = {from[18], from[24], from[30]};
+    const double length = sqrt(dot(d, d));
+    const double rows[9] = {0, d[2], -d[1], -d[2], 0, d[0], d[1], -d[0], 0};
+    memcpy(a + 9 * (size_t)j, rows, sizeof rows);
+    memcpy(moments + 3 * (size_t)j, m, sizeof m);
+    for (int k = 0; length > longest && k < 3; k++) {
+      axis->direction[k] = d[k] / length;
     }
-    for (int k = 0; k < 3; k++) {
-      sum[k] += turned[k];
-      axis->direction[k] = square > longest ? d[k] / sqrt(square) : axis->direction[k];
-      moment[k] = square > longest ? m[k] / sqrt(square) : moment[k];
-    }
-    longest = fmax(longest, square);
+    pitch = length > longest ? dot(axis->direction, m) / length : pitch;
+    longest = fmax(longest, length);
   }
-  if (count < 3) {
-    cross(p, axis->direction, moment);
-    // Without a rotation, an extruded face; with a pitch, a thread.
-    const bool turns = count == 2 || fabs(dot(axis->direction, moment)) < ZERO;
-    return sqrt(longest) > ZERO && turns ? ROUND : OTHER;
+  gsl_matrix_view all = gsl_matrix_view_array(a, 9, 3), right = gsl_matrix_view_array(turns, 3, 3);
+  gsl_vector_view values = gsl_vector_view_array(s, 3), room = gsl_vector_view_array(work, 3);
+  gsl_vector_view b = gsl_vector_view_array(moments, 9), x = gsl_vector_view_array(p, 3);
+  if (gsl_linalg_SV_decomp(&all.matrix, &right.matrix, &values.vector, &room.vector) != 0) {
+    return OTHER;
   }
-  double det[3], across[3];
-  cross(det, gram[0], gram[1]);
-  const double whole = dot(det, gram[2]);
-  for (int k = 0; k < 3; k++) { // Cramer's rule; the matrix is symmetric
-    cross(across, gram[(k + 1) % 3], gram[(k + 2) % 3]);
-    p[k] = dot(across, sum) / whole;
-  }
-  return whole > ZERO ? BALL : PLANE; // all rotations of a plane have one direction
+  const bool parallel = s[2] < ZERO;
+  s[2] = parallel ? 0 : s[2];
+  gsl_linalg_SV_solve(&all.matrix, &right.matrix, &values.vector, &b.vector, &x.vector);
+  // All rotations of a plane have one direction. Without a rotation, an extruded face; with a
+  // pitch, a thread.
+  return count == 3                                             ? (parallel ? PLANE : BALL)
+         : longest > ZERO && (count == 2 || fabs(pitch) < ZERO) ? ROUND
+                                                                : OTHER;
 }
 
 // Finds the axis that all normals of a face meet, d.(q x n) + m.n = 0 with the moment m = p x d, as
@@ -159,26 +158,26 @@ static Kind axis_of_rows(Axis *axis, double p[3], const double v[36], int count)
 // Computational Line Geometry, Springer 2001, section 3.4). Its dimension is 1 for a face of
 // revolution, 2 for a cylinder, 3 for a ball or a plane; others are not changed.
 static void axis_of(Axis *axis, int tag) {
-  double q[SAMPLES][3], n[SAMPLES][3], centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
-  if (!sample(q, n, tag)) {
-    return;
+  double *q = NULL, *n = NULL, centre[3] = {0}, size = 0, a[SAMPLES * 6], v[36], s[6], w[6];
+  const bool good = sample(&q, &n, tag);
+  for (int i = 0; good && i < 3 * SAMPLES; i++) {
+    centre[i % 3] += q[i] / SAMPLES;
   }
-  for (int i = 0; i < 3 * SAMPLES; i++) {
-    centre[i % 3] += q[i / 3][i % 3] / SAMPLES;
-  }
-  for (int i = 0; i < SAMPLES; i++) {
+  for (int i = 0; good && i < SAMPLES; i++) {
     for (int k = 0; k < 3; k++) {
-      q[i][k] -= centre[k];
+      q[3 * i + k] -= centre[k];
     }
-    size = fmax(size, sqrt(dot(q[i], q[i])));
+    size = fmax(size, sqrt(dot(q + 3 * (size_t)i, q + 3 * (size_t)i)));
   }
-  for (int i = 0; i < SAMPLES; i++) {
-    cross(a + 6 * (size_t)i, q[i], n[i]);
+  for (int i = 0; good && i < SAMPLES; i++) {
+    cross(a + 6 * (size_t)i, q + 3 * (size_t)i, n + 3 * (size_t)i);
     for (int k = 0; k < 3; k++) {
       a[6 * i + k] /= size;
-      a[6 * i + 3 + k] = n[i][k];
+      a[6 * i + 3 + k] = n[3 * i + k];
     }
   }
+  gmshFree(q);
+  gmshFree(n);
   gsl_matrix_view all = gsl_matrix_view_array(a, SAMPLES, 6), cols = gsl_matrix_view_array(v, 6, 6);
   gsl_vector_view values = gsl_vector_view_array(s, 6), work = gsl_vector_view_array(w, 6);
   if (!(size > 0) ||
@@ -190,7 +189,7 @@ static void axis_of(Axis *axis, int tag) {
     count++;
   }
   double p[3] = {0};
-  axis->kind = count == 0 || count > 3 ? OTHER : axis_of_rows(axis, p, v, count);
+  axis->kind = count == 0 || count > 3 ? OTHER : axis_of_columns(axis, p, v, count);
   for (int k = 0; k < 3; k++) {
     axis->point[k] = centre[k] + size * p[k];
   }
@@ -234,9 +233,10 @@ static bool is_better(const Axis *a, const Axis *than) {
 // Finds the axis that most area of the round faces turns about, of those along `direction` if that
 // is given; without one that through the centre of the largest ball and that of another one, or
 // else at right angles to the largest plane, or else along x; without a ball that through the
-// centre of mass if a direction or a point is given. A given point replaces the one found.
-static bool find_axis(Axis *best, const int *bodies, size_t count, const double direction[3],
-                      const double through[3]) {
+// centre of mass if a direction or a point is given. A given point replaces the one found. Returns
+// what is wrong, static, or NULL.
+static const char *find_axis(Axis *best, const int *bodies, size_t count, const double direction[3],
+                             const double through[3]) {
   static Axis axes[AXES_MAX];
   int found = 0, ierr, *faces = NULL;
   size_t face_count = 0;
@@ -252,8 +252,13 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
     const bool fits = !directed || fabs(dot(own->direction, direction)) >= 1 - PARALLEL;
     first = (fits || own->kind != ROUND) && is_better(own, first) ? own : first;
   }
+  int planes = 0; // directions of them
   for (const Axis *own = axes; own < axes + found; own++) {
     next = own != first && own->kind != ROUND && is_better(own, next) ? own : next;
+    planes += own->kind == PLANE;
+  }
+  if (!directed && first->kind == BALL && next->kind == PLANE && planes > 1) {
+    return "is a ball with planes of several directions: any of them may be across its axis";
   }
   *best = first->kind <= BALL ? *first : (Axis){.area = 0};
   for (int k = 0; best->kind == BALL && k < 3; k++) {
@@ -280,7 +285,7 @@ static bool find_axis(Axis *best, const int *bodies, size_t count, const double 
     memcpy(best->point, through, sizeof best->point);
   }
   nearest_point(best, !directed);
-  return best->area > 0 || mass > 0;
+  return best->area > 0 || mass > 0 ? NULL : "has no face of revolution, so no axis";
 }
 
 // Moves everything so that the axis is x and the half-plane at `angle` is y > 0, z = 0.
@@ -356,47 +361,41 @@ static bool print_edges(int face) {
   return good;
 }
 
-// The half-section of a body: its common part with a rectangle of the half-plane.
-static void print_section(int body) {
-  int ierr;
-  double box[6];
+// Prints the half-section of a body of this volume [mm3]: that of the first of PLANES half-planes
+// that is near it, revolved, else that of the largest one: the others meet ports.
+static void print_section(int body, double volume, bool chosen) {
+  enum { PLANES = 8 };
+  int ierr, *best = NULL, own[2] = {3, body};
+  double box[6], most = -1;
+  size_t best_count = 0;
+  bool failed = true;
   gmshModelOccGetBoundingBox(3, body, &box[0], &box[1], &box[2], &box[3], &box[4], &box[5], &ierr);
-  if (ierr != 0) {
-    fprintf(out, "why it has no extent\n");
-    return;
+  for (int k = 0; ierr == 0 && k < (chosen ? 1 : PLANES) && !(fabs(most / volume - 1) < NEAR);
+       k++) {
+    size_t count;
+    double each;
+    bool wrong;
+    int *faces = sb_cad_cut(&count, &each, &wrong, body, box);
+    failed = failed && wrong;
+    const bool better = each > (1 + MORE) * most;
+    gmshFree(better ? best : faces);
+    best = better ? faces : best;
+    best_count = better ? count : best_count;
+    most = better ? each : most;
+    gmshModelOccRotate(own, 2, 0, 0, 0, 1, 0, 0, -2 * M_PI / PLANES, &ierr);
   }
-  const double size = 2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
-  const double margin = 0.1 * (box[3] - box[0]) + 0.1;
-  const int plane = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin,
-                                             size + 1, -1, 0, &ierr);
-  int object[2] = {3, body}, tool[2] = {2, plane}, *faces = NULL, **map = NULL;
-  size_t count = 0, *map_n = NULL, maps = 0;
-  if (ierr == 0) {
-    gmshModelOccIntersect(object, 2, tool, 2, &faces, &count, &map, &map_n, &maps, -1, 0, 1, &ierr);
+  gmshModelOccSynchronize(&ierr);
+  bool good = ierr == 0 && !failed;
+  for (size_t i = 0; good && i < best_count; i++) {
+    good = print_edges(best[i]);
   }
-  if (ierr == 0) {
-    gmshModelOccSynchronize(&ierr);
-  }
-  bool good = ierr == 0;
-  int cut = 0;
-  for (size_t i = 0; good && i + 1 < count; i += 2) {
-    if (faces[i] == 2) {
-      cut++;
-      good = print_edges(faces[i + 1]);
-    }
-  }
-  if (!good || cut == 0) {
+  if (!good || best_count == 0) {
     fprintf(out, "why %s\n", good ? "the half-plane does not meet it" : "the kernel cannot cut it");
   }
-  gmshFree(faces);
-  for (size_t i = 0; i < maps; i++) {
-    gmshFree(map[i]);
-  }
-  gmshFree(map);
-  gmshFree(map_n);
+  gmshFree(best);
 }
 
-static void print_body(int body, int number) {
+static void print_body(int body, int number, bool chosen) {
   int ierr;
   char *name = NULL;
   gmshModelGetEntityName(3, body, &name, &ierr);
@@ -406,10 +405,7 @@ static void print_body(int body, int number) {
   // What the kernel writes where it was given no name.
   last = strncmp(last, "Open CASCADE STEP translator", 28) == 0 ? "" : last;
   g_autofree char *own = *last != '\0' ? g_strdup(last) : g_strdup_printf("body %d", number);
-  for (char *at = own; *at != '\0'; at++) {
-    *at = (unsigned char)*at < ' ' ? ' ' : *at;
-  }
-  fprintf(out, "body %s\n", own);
+  fprintf(out, "body %s\n", g_strdelimit(own, "\r\n", ' '));
   gmshFree(name);
   SbSolid solid;
   bool coarse;
@@ -424,7 +420,7 @@ static void print_body(int body, int number) {
     fprintf(out, "note its volume and moments can be wrong by 1 %%: its spline faces could not be "
                  "measured accurately\n");
   }
-  print_section(body);
+  print_section(body, solid.volume, chosen);
   fflush(out);
 }
 
@@ -485,12 +481,15 @@ int main(int argc, char **argv) {
     direction[k] /= length;
   }
   gsl_set_error_handler_off();
-  check(!find_axis(&axis, bodies, 2 * solids, direction, through), "axis"); // step.c has the text
+  const char *wrong = find_axis(&axis, bodies, 2 * solids, direction, through);
+  g_autofree char *axis_error = g_strconcat("axis ", wrong, NULL); // for step.c
+  check(wrong != NULL, axis_error);
   const double *p = axis.point, *d = axis.direction;
   print_numbers("axis", (double[]){SCALE * p[0], SCALE * p[1], SCALE * p[2], d[0], d[1], d[2]}, 6);
-  place(bodies, 2 * solids, &axis, strtod(argv[2], NULL));
+  const double angle = strtod(argv[2], NULL);
+  place(bodies, 2 * solids, &axis, isnan(angle) ? OFF_PORTS : angle);
   for (size_t i = 0; i < solids; i++) {
-    print_body(bodies[2 * i + 1], (int)i + 1);
+    print_body(bodies[2 * i + 1], (int)i + 1, !isnan(angle));
   }
   fprintf(out, "end\n");
   gmshFree(bodies);

@@ -1,4 +1,4 @@
-// Volume and moments of a body in the kernel. Compiled into sealbench-cad.
+// Volume, moments and section of a body in the kernel. Compiled into sealbench-cad.
 //
 // The kernel's quadrature is wrong by 1 % on spline faces, and by more on a spline that was
 // revolved. Their bodies are measured by meshes: the vertices are on the faces, so that the numbers
@@ -163,4 +163,34 @@ bool sb_cad_measure(SbSolid *solid, int body, bool *coarse) {
     *solid = *coarse || equal(solid, &mesh) ? *solid : mesh;
   }
   return true;
+}
+
+int *sb_cad_cut(size_t *count, double *volume, bool *failed, int body, const double box[6]) {
+  const double size = 2 * hypot(fmax(fabs(box[1]), fabs(box[4])), fmax(fabs(box[2]), fabs(box[5])));
+  const double margin = 0.1 * (box[3] - box[0]) + 0.1;
+  int ierr, object[2] = {3, body}, tool[2] = {2, -1}, *all = NULL, **map = NULL;
+  size_t n = 0, *map_n = NULL, maps = 0;
+  *count = 0;
+  *volume = 0;
+  tool[1] = gmshModelOccAddRectangle(box[0] - margin, 0, 0, box[3] - box[0] + 2 * margin, size + 1,
+                                     -1, 0, &ierr);
+  if (ierr == 0) {
+    gmshModelOccIntersect(object, 2, tool, 2, &all, &n, &map, &map_n, &maps, -1, 0, 1, &ierr);
+  }
+  *failed = ierr != 0;
+  for (size_t i = 0; i + 1 < n; i += 2) {
+    double area = 0, at[3] = {0};
+    if (all[i] == 2) {
+      gmshModelOccGetMass(2, all[i + 1], &area, &ierr);
+      gmshModelOccGetCenterOfMass(2, all[i + 1], &at[0], &at[1], &at[2], &ierr);
+      *volume += 2 * M_PI * area * at[1];
+      all[(*count)++] = all[i + 1];
+    }
+  }
+  for (size_t i = 0; i < maps; i++) {
+    gmshFree(map[i]);
+  }
+  gmshFree(map);
+  gmshFree(map_n);
+  return all;
 }

@@ -90,14 +90,18 @@ static bool measure(const SbStl *stl, const GPtrArray *shells, GError **error) {
   return true;
 }
 
-// Writes the axis about which the bodies are closest to bodies of revolution.
-static void find_mesh_axis(double axis[3], const GPtrArray *shells) {
-  double sum[3][3] = {{0}};
+// Writes the axis about which the bodies are closest to bodies of revolution. Returns false if that
+// is so about several axes and they are not a ball, whose moments are the least of its volume V:
+// 2/5 V r^2, with V = 4/3 pi r^3.
+static bool find_mesh_axis(double axis[3], const GPtrArray *shells) {
+  double sum[3][3] = {{0}}, volume = 0;
   for (guint i = 0; i < 9 * shells->len; i++) {
     const Shell *shell = shells->pdata[i / 9];
     sum[i % 9 / 3][i % 3] += shell->solid.inertia[i % 9 / 3][i % 3];
+    volume += shell->solid.volume / 9;
   }
-  sb_solid_axis(axis, (const double(*)[3])sum);
+  const double least = 0.4 * volume * pow(3 * volume / (4 * M_PI), 2.0 / 3);
+  return sb_solid_axis(axis, (const double(*)[3])sum) || sum[0][0] < 1.02 * least;
 }
 
 // Unit vectors at right angles, the first along `axis`; of a coordinate axis, the next two follow.
@@ -148,10 +152,12 @@ static void pierce(double xu[2], const SbStl *stl, unsigned a, unsigned b, doubl
   xu[1] = up + t * (uq - up);
 }
 
-// Cuts the facets of a body by the half-plane at `angle`.
-static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
+// Cuts the facets of a body by the half-plane at `angle`. Writes the volume of the pieces,
+// revolved.
+static GArray *cut(double *volume, const SbStl *stl, const Shell *shell, double angle) {
   const double c = cos(angle), s = sin(angle);
   GArray *pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
+  *volume = 0;
   for (guint i = 0; i < shell->triangles->len; i++) {
     const unsigned *corner = (const unsigned *)(void *)shell->triangles->data + 3 * (gsize)i;
     double at[2][2];
@@ -163,11 +169,14 @@ static GArray *cut(const SbStl *stl, const Shell *shell, double angle) {
     }
     for (int k = 0; k < 3 && found < 2; k++) {
       if (behind[k] != behind[(k + 1) % 3]) {
-        pierce(at[found++], stl, corner[k], corner[(k + 1) % 3], c, s);
+        pierce(at[behind[k]], stl, corner[k], corner[(k + 1) % 3], c, s);
+        found++;
       }
     }
     if (found == 2 && hypot(at[1][0] - at[0][0], at[1][1] - at[0][1]) > SHORT) {
       g_array_append_vals(pieces, &(SbPiece){at[0][0], at[0][1], at[1][0], at[1][1], 0}, 1);
+      const double r = fmax(at[0][1], 0), next = fmax(at[1][1], 0);
+      *volume += M_PI / 3 * (at[0][0] - at[1][0]) * (r * r + r * next + next * next);
     }
   }
   return pieces;
@@ -196,31 +205,27 @@ static void farthest(double angle[SECTORS], const SbStl *stl, const Shell *shell
   angle[first] = swap;
 }
 
-static SbCadBody *add_section(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
-                              double angle) {
-  SbCadBody *body = sb_cad_body_new(name);
-  g_autoptr(GArray) pieces = cut(stl, shell, angle);
-  g_ptr_array_add(cad->bodies, body);
-  sb_cad_section(cad, body, pieces);
-  return body;
-}
-
 // Adds a body with its half-section: without a chosen angle at the first of the farthest vertices,
 // or where the half-plane meets clearly more of the body, as next to ports.
 static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const char *name,
                      const SbCadChoices *choices) {
-  double angle[SECTORS], best = 0; // volume of the best half-section, revolved
+  double angle[SECTORS], best, volume;
   farthest(angle, stl, shell);
-  double at = angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
-  for (int k = 0; choices->angle == NULL && k < SECTORS; k++) {
-    if (k == 0 || !(isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
-      g_autoptr(SbCad) tried = sb_cad_new("");
-      const double volume = add_section(tried, stl, shell, name, angle[k])->revolved.volume;
-      at = volume > (1 + MORE) * best ? angle[k] : at;
-      best = volume > (1 + MORE) * best ? volume : best;
+  angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
+  GArray *pieces = cut(&best, stl, shell, angle[0]);
+  for (int k = 1; choices->angle == NULL && k < SECTORS; k++) {
+    if (!(isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
+      GArray *other = cut(&volume, stl, shell, angle[k]);
+      const bool better = volume > (1 + MORE) * best;
+      g_array_unref(better ? pieces : other);
+      pieces = better ? other : pieces;
+      best = better ? volume : best;
     }
   }
-  SbCadBody *body = add_section(cad, stl, shell, name, at);
+  SbCadBody *body = sb_cad_body_new(name);
+  g_ptr_array_add(cad->bodies, body);
+  sb_cad_section(cad, body, pieces);
+  g_array_unref(pieces);
   body->measured = true;
   body->solid = shell->solid;
 }
@@ -242,7 +247,10 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
     return NULL;
   }
   double found[3];
-  find_mesh_axis(found, shells);
+  if (!find_mesh_axis(found, shells) && choices->axis == NULL) {
+    sb_app_error_choose(error, "axis", "x\ny\nz", "has equal moments about several axes");
+    return NULL;
+  }
   const double *axis = choices->axis != NULL ? choices->axis : found;
   double frame[3][3];
   frame_of(frame, axis);
@@ -276,7 +284,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
 SbCad *sb_cad_parse_stl(const char *data, gsize length, const char *path,
                         const SbCadChoices *choices, GError **error) {
   SbStl stl;
-  if (!sb_stl_parse(&stl, data, length, "m", path, error)) {
+  if (!sb_stl_read(&stl, data, length, "m", path, error)) {
     return NULL;
   }
   SbCad *cad = of_mesh(&stl, path, choices, error);

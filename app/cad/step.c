@@ -1,5 +1,6 @@
 // STEP files through sealbench-cad (helper.c), which limits its own processor time and memory. Time
 // on the clock has no influence: a loaded machine reads what an idle one reads.
+#include "app/base/beside.h"
 #include "app/cad/cad_private.h"
 
 #include <gio/gio.h>
@@ -10,21 +11,9 @@ enum { TEXT_MAX = 64 << 20 };
 
 // Beside this program where it is not installed, else in libexecdir.
 static char *helper_path(void) {
-  const char *given = g_getenv("SEALBENCH_CAD");
-  if (given != NULL) {
-    return g_strdup(given);
-  }
-  g_autofree char *self = g_file_read_link("/proc/self/exe", NULL);
-  g_autofree char *folder = self != NULL ? g_path_get_dirname(self) : g_strdup(".");
   static const char *const places[] = {SB_LIBEXEC_FROM_PROGRAM, ".", "..", NULL};
-  for (size_t i = 0; places[i] != NULL; i++) {
-    char *path = g_build_filename(folder, places[i], "sealbench-cad", NULL);
-    if (g_file_test(path, G_FILE_TEST_IS_EXECUTABLE)) {
-      return path;
-    }
-    g_free(path);
-  }
-  return NULL;
+  const char *given = g_getenv("SEALBENCH_CAD");
+  return given != NULL ? g_strdup(given) : sb_beside_program(places, "sealbench-cad");
 }
 
 // What the helper prints; NULL with an error.
@@ -36,8 +25,7 @@ static char *run_helper(const char *path, const SbCadChoices *choices, GError **
                "then ./run where the sources are, or save a DXF of the section instead");
     return NULL;
   }
-  // A plane off those in which ports and flats are drawn.
-  const double angle = choices->angle != NULL ? *choices->angle : 0.658;
+  const double angle = choices->angle != NULL ? *choices->angle : NAN;
   const double unknown[3] = {NAN, NAN, NAN};
   const double *axis = choices->axis != NULL ? choices->axis : unknown;
   const double *at = choices->through != NULL ? choices->through : unknown;
@@ -90,8 +78,8 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
   for (char **each = lines; *each != NULL; each++) {
     const char *line = *each;
     double n[sizeof(SbSolid) / sizeof(double)];
-    if (strcmp(line, "error axis") == 0) {
-      return sb_app_error_choose(error, "axis", "x\ny\nz", "has no face of revolution, so no axis");
+    if (g_str_has_prefix(line, "error axis ")) {
+      return sb_app_error_choose(error, "axis", "x\ny\nz", "%s", line + 11);
     }
     if (g_str_has_prefix(line, "error ")) {
       return sb_app_error_input(error, "%s", line + 6);

@@ -61,16 +61,6 @@ void sb_stl_extent(const double *points, gsize count, double low[3], double high
   }
 }
 
-static double weld_tolerance(const double *corners, gsize count) {
-  double diagonal = 0.0, largest = 0.0, low[3], high[3];
-  sb_stl_extent(corners, count, low, high);
-  for (int k = 0; k < 3; k++) {
-    diagonal = hypot(diagonal, high[k] - low[k]);
-    largest = fmax(largest, fmax(fabs(low[k]), fabs(high[k])));
-  }
-  return fmax(WELD * diagonal, WELD_SINGLE * largest);
-}
-
 // Corners closer than the tolerance become one vertex, triangles that lose a corner by that are
 // dropped. Vertices are further apart, so that a cell of four tolerances holds few: linear time.
 static void weld(SbStl *out, const double *corners, gsize triangles, double tolerance) {
@@ -94,9 +84,7 @@ static void weld(SbStl *out, const double *corners, gsize triangles, double tole
         memcpy(out->vertices + 3 * out->vertex_count++, x, 3 * sizeof *x);
       }
     }
-    if (v[0] == v[1] || v[1] == v[2] || v[2] == v[0]) {
-      out->dropped++;
-    } else {
+    if (v[0] != v[1] && v[1] != v[2] && v[2] != v[0]) {
       memcpy(out->triangles + 3 * out->triangle_count++, v, sizeof v);
     }
   }
@@ -196,12 +184,17 @@ static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize lengt
   if (!sb_cad_is_stl(data, length)) {
     return sb_app_error_input(error, "not an STL file, or cut short (%zu bytes)", length);
   }
-  out->text = !is_binary(data, length);
-  if (!(out->text ? read_text : read_binary)(corners, data, length, error)) {
+  if (!(is_binary(data, length) ? read_binary : read_text)(corners, data, length, error)) {
     return false;
   }
   const double *corner = (const double *)(const void *)corners->data;
-  const double tolerance = weld_tolerance(corner, corners->len / 3);
+  double diagonal = 0, largest = 0, low[3], high[3];
+  sb_stl_extent(corner, corners->len / 3, low, high);
+  for (int k = 0; k < 3; k++) {
+    diagonal = hypot(diagonal, high[k] - low[k]);
+    largest = fmax(largest, fmax(fabs(low[k]), fabs(high[k])));
+  }
+  const double tolerance = fmax(WELD * diagonal, WELD_SINGLE * largest);
   if (corners->len > 0 && !isfinite(tolerance)) {
     return sb_app_error_input(error, "has corners too far from the origin");
   }
@@ -213,28 +206,25 @@ static bool read_mesh(SbStl *out, GArray *corners, const char *data, gsize lengt
          sb_app_error_input(error, "%s", report.text);
 }
 
-gboolean sb_stl_parse(SbStl *out, const char *data, gsize length, const char *unit,
-                      const char *name, GError **error) {
+gboolean sb_stl_read(SbStl *out, const char *data, gsize length, const char *unit, const char *path,
+                     GError **error) {
   *out = (SbStl){0};
+  g_autofree char *own = NULL;
+  if (data == NULL) {
+    data = own = sb_reader_load_file(&length, path, path, LONGEST, SB_APP_ERROR_IO, error);
+  }
   double scale;
   g_autoptr(GArray) corners = g_array_new(FALSE, FALSE, sizeof(double));
-  const bool good =
-      sb_unit_scale(&scale, unit, "m", "mm", error) && read_mesh(out, corners, data, length, error);
+  const bool good = data != NULL && sb_unit_scale(&scale, unit, "m", "mm", error) &&
+                    read_mesh(out, corners, data, length, error);
   for (gsize i = 0; good && i < 3 * out->vertex_count; i++) {
     out->vertices[i] *= scale;
   }
-  if (!good) {
-    sb_app_error_prefix(error, name);
+  if (!good && data != NULL) {
+    sb_app_error_prefix(error, path);
     sb_stl_clear(out);
   }
   return good;
-}
-
-gboolean sb_stl_read(SbStl *out, const char *path, const char *unit, GError **error) {
-  *out = (SbStl){0};
-  gsize length = 0;
-  g_autofree char *data = sb_reader_load_file(&length, path, path, LONGEST, SB_APP_ERROR_IO, error);
-  return data != NULL && sb_stl_parse(out, data, length, unit, path, error);
 }
 
 void sb_stl_clear(SbStl *stl) {

@@ -88,7 +88,7 @@ static void check_measured(Check *check) {
   sb_params_init(&params);
   const double speed = sb_data_drive_speed(sb_params_get(&params, SB_P_DRIVE_KIND),
                                            sb_params_get(&params, SB_P_DRIVE_SPEED));
-  check->measured = sb_measured_parse(data, speed, check->text, check->length, issues);
+  check->measured = sb_measured_read(data, speed, check->text, check->length, issues);
   sb_data_free(data);
   if (check->measured == NULL) {
     const SbIssue *first = issues->len > 0 ? issues->pdata[0] : NULL;

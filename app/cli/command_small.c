@@ -1,4 +1,5 @@
 // sealbench list, plan, asperity and open.
+#include "app/base/beside.h"
 #include "app/base/figure_text.h"
 #include "app/cli/cli.h"
 #include "app/document/rubber_sheet.h"
@@ -10,7 +11,6 @@
 #include "engine/fluid/fluid.h"
 
 #include <errno.h>
-#include <limits.h>
 #include <math.h>
 #include <string.h>
 #include <unistd.h>
@@ -261,17 +261,11 @@ int sb_command_open(int argc, char **argv) {
     return sb_cli_fail("%s: %s", file, g_strerror(errno));
   }
   // Beside this program (installed, or in the build folder), else on the path.
-  static const char *const places[] = {"sealbench-gtk", "ui/sealbench-gtk", "../ui/sealbench-gtk"};
-  char self[PATH_MAX];
-  ssize_t length = readlink("/proc/self/exe", self, sizeof self - 1);
-  self[MAX(length, 0)] = '\0';
-  g_autofree char *folder = g_path_get_dirname(self);
+  static const char *const places[] = {".", "ui", "../ui", NULL};
   char *arguments[] = {(char *)"sealbench-gtk", file, NULL};
-  for (size_t i = 0; length > 0 && i < G_N_ELEMENTS(places); i++) {
-    g_autofree char *path = g_build_filename(folder, places[i], NULL);
-    if (access(path, X_OK) == 0) {
-      execv(path, arguments);
-    }
+  g_autofree char *path = sb_beside_program(places, arguments[0]);
+  if (path != NULL) {
+    execv(path, arguments);
   }
   execvp("sealbench-gtk", arguments);
   sb_cli_fail("the window's program sealbench-gtk cannot be started: %s%s", g_strerror(errno),

@@ -244,7 +244,7 @@ static int write_surface_scene(const SbSurface *surface, const SurfaceOptions *o
 static int compute_surface(const char *path, SurfaceOptions *options) {
   GError *error = NULL;
   SbScan scan;
-  if (!sb_scan_read(&scan, path, &options->choices.scan, &error)) {
+  if (!sb_scan_read(&scan, NULL, 0, &options->choices.scan, path, &error)) {
     return sb_cli_error(error);
   }
   int code =

@@ -16,7 +16,7 @@ bool sb_film_history_read(SbModelSeries *series, SbFilmProblem *problem, const c
     return false;
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  const bool good = sb_series_read(series, SB_SERIES_SPEED, path, issues);
+  const bool good = sb_series_read(series, SB_SERIES_SPEED, NULL, 0, path, issues);
   sb_cli_issues(issues);
   problem->speed = good ? series->value[0] : 0;
   return good;

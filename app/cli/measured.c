@@ -28,7 +28,7 @@ SbMeasured *sb_cli_measured(int *code, const SbDocument *document, const char *o
   }
   SbData *bare = data == NULL ? sb_data_of_file(path) : NULL;
   SbMeasured *measured =
-      sb_measured_load(data != NULL ? data : bare, drive_speed(document), issues);
+      sb_measured_read(data != NULL ? data : bare, drive_speed(document), NULL, 0, issues);
   sb_data_free(bare);
   sb_cli_issues(issues);
   *code = measured != NULL ? SB_EXIT_DONE : SB_EXIT_INPUT;
@@ -47,7 +47,7 @@ void sb_cli_recognised(const SbMeasured *measured) {
 void sb_cli_check_data(const SbDocument *document, bool print, GPtrArray *issues) {
   for (size_t i = 0; i < sb_document_data_count(document); i++) {
     g_autoptr(SbMeasured) measured =
-        sb_measured_load(sb_document_data(document, i), drive_speed(document), issues);
+        sb_measured_read(sb_document_data(document, i), drive_speed(document), NULL, 0, issues);
     if (measured != NULL && print && !sb_cli_quiet()) {
       sb_cli_recognised(measured);
     }

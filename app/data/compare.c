@@ -108,8 +108,7 @@ SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t c
   return out;
 }
 
-void sb_measured_band(SbMeasuredBand *out, const SbMeasured *m) {
-  out->end = 0;
+static void find_band(SbMeasuredBand *out, const SbMeasured *m) {
   for (size_t c = m->first; c <= m->last; c++) {
     out->end = fmax(out->end, m->displacement[sb_measured_cycle(m, c)->turn] * (1 + 1e-9));
   }
@@ -155,7 +154,7 @@ SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loo
   memcpy(out->model_force, loop->stage_force, sizeof loop->stage_force);
   memcpy(out->model_error, loop->stage_error, sizeof loop->stage_error);
   if (measured->last > measured->first) {
-    sb_measured_band(&out->band, measured);
+    find_band(&out->band, measured);
   }
   return out;
 }

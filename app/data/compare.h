@@ -33,6 +33,14 @@ double sb_loop_force(const SbLoop *loop, int way, double displacement);
 // Largest number of points of a comparison.
 enum { SB_COMPARISON_POINTS = 200000 };
 
+// Scatter of several cycles: the stroke from 0 to `end` [m] is divided into equal pieces.
+enum { SB_MEASURED_BAND = 200 };
+typedef struct {
+  double end; // [m]
+  // [way][piece][0 minimum, 1 maximum] of the force in the cycles in use [N]; NaN: no row there
+  double force[2][SB_MEASURED_BAND][2];
+} SbMeasuredBand;
+
 // Differences between a measured and a computed loop.
 typedef struct {
   const SbMeasured *measured; // borrowed

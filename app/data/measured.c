@@ -1,12 +1,14 @@
 // Reads measured loops: which column is what, in which unit; see measured.h.
 #include "app/data/measured_private.h"
 
-#include "app/base/number.h"
+#include "app/base/reader.h"
 
 #include <gsl/gsl_statistics_double.h>
 
 #define SPEED_MAX 10.0                                                   // of a test machine [m/s]
 #define FACTOR    "fa[ckt]?t[oe]|multipl|s[ck]al|échelle|gain|倍率|係数" // in a line with a factor
+
+enum { BYTES_MAX = 1 << 30 }; // largest file
 
 const char *const sb_channel_names[SB_CHANNELS] = {"time", "displacement", "force"};
 
@@ -321,10 +323,8 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
     scale[c] = 1;
-    if (m->column[c].unit == NULL || m->column[c].clock) {
-      continue;
-    }
-    if (!settle_unit(&scale[c], m, table, data, (SbChannel)c, issues)) {
+    if (m->column[c].unit != NULL && !m->column[c].clock &&
+        !settle_unit(&scale[c], m, table, data, (SbChannel)c, issues)) {
       return false;
     }
   }
@@ -454,33 +454,30 @@ static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed
     m->value[c] = m->column[c].at > 0 ? read[k++] : NULL;
   }
   m->count = m->lines.rows;
-  bool good = m->lines.skipped <= m->count ||
-              sb_issues_add(list, data->path, m->lines.left_line, NULL, NULL,
-                            "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
-                            m->lines.skipped, m->count, m->lines.left_text);
   m->dropped = m->lines.damaged;
   sb_measured_tests(m, table, read[count]);
   g_free(read[count]);
-  good = good && settle_rows(m, data, scale, list);
-  if (good && m->count < ROWS_MIN) {
-    good =
-        sb_issues_add(list, data->path, 0, NULL, "at least 8 rows", "has too few rows for a loop");
-  }
-  good = good && (m->speed == 0 || displace(m, data, list)) && sb_measured_find(m, data, list);
+  const bool good =
+      (m->lines.skipped <= m->lines.rows ||
+       sb_issues_add(list, data->path, m->lines.left_line, NULL, NULL,
+                     "%zu lines are not rows of the table and %zu are, the first is \"%s\"",
+                     m->lines.skipped, m->count, m->lines.left_text)) &&
+      settle_rows(m, data, scale, list) &&
+      (m->count >= ROWS_MIN || sb_issues_add(list, data->path, 0, NULL, "at least 8 rows",
+                                             "has too few rows for a loop")) &&
+      (m->speed == 0 || displace(m, data, list)) && sb_measured_find(m, data, list);
   return good ? g_steal_pointer(&m) : NULL;
 }
 
-SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
-                              GPtrArray *issues) {
+SbMeasured *sb_measured_read(const SbData *data, double speed, const void *bytes, size_t length,
+                             GPtrArray *issues) {
   SbTextTableDialect wish = {0};
+  const char *path = data->path;
   const bool good = sb_measured_dialect(&wish, data, issues);
-  g_autoptr(SbTextTable) table = !good ? NULL
-                                 : bytes != NULL
-                                     ? sb_text_table_parse(bytes, length, &wish, data->path, issues)
-                                     : sb_text_table_open(data->path, &wish, issues);
+  g_autofree char *own =
+      good && bytes == NULL ? sb_reader_load(&length, path, path, BYTES_MAX, issues) : NULL;
+  bytes = bytes != NULL ? bytes : own;
+  g_autoptr(SbTextTable) table =
+      good && bytes != NULL ? sb_text_table_parse(bytes, length, &wish, path, issues) : NULL;
   return table != NULL ? read_all(table, data, speed, issues) : NULL;
-}
-
-SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues) {
-  return sb_measured_parse(data, speed, NULL, 0, issues);
 }

@@ -91,17 +91,15 @@ typedef struct {
   SbMeasuredStage stage[SB_STAGE_COUNT]; // of cycle `first`
 } SbMeasured;
 
-// Reads the file of the group `data`. `speed` is the speed of the scene's drive [m/s], for a file
-// without displacement (0: the drive has none, see sb_data_drive_speed()). Returns NULL with at
-// least one issue: the file cannot be read, its format, columns or units are ambiguous or missing,
-// fewer than 8 rows, no stroke, or a value out of range. `data` may be freed afterwards. Freed by
-// sb_measured_free(). A list of cycles is an issue: sb_data_split() divides such a group first.
-SbMeasured *sb_measured_load(const SbData *data, double speed, GPtrArray *issues);
-
-// As sb_measured_load(), from the `length` bytes of a file; data->path, which must not be NULL, is
-// used for messages only. NULL bytes: from the file.
-SbMeasured *sb_measured_parse(const SbData *data, double speed, const void *bytes, size_t length,
-                              GPtrArray *issues);
+// Reads the `length` bytes of the file of the group `data`; NULL bytes: the file data->path, which
+// is used for messages only otherwise and must not be NULL. `speed` is the speed of the scene's
+// drive [m/s], for a file without displacement (0: the drive has none, see sb_data_drive_speed()).
+// Returns NULL with at least one issue: the file cannot be read, is larger than 1 GiB, its format,
+// columns or units are ambiguous or missing, fewer than 8 rows, no stroke, or a value out of range.
+// `data` may be freed afterwards. Freed by sb_measured_free(). A list of cycles is an issue:
+// sb_data_split() divides such a group first.
+SbMeasured *sb_measured_read(const SbData *data, double speed, const void *bytes, size_t length,
+                             GPtrArray *issues);
 
 // Frees a measured loop.
 void sb_measured_free(SbMeasured *measured);
@@ -132,14 +130,3 @@ typedef struct {
 // rows than `count_max`, means of equally many neighbours on one stroke take their place (then up
 // to two more points for each cycle). Freed by g_free().
 SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *measured, size_t count_max);
-
-// Scatter of several cycles: the stroke from 0 to `end` [m] is divided into equal pieces.
-enum { SB_MEASURED_BAND = 200 };
-typedef struct {
-  double end; // [m]
-  // [way][piece][0 minimum, 1 maximum] of the force in the cycles in use [N]; NaN: no row there
-  double force[2][SB_MEASURED_BAND][2];
-} SbMeasuredBand;
-
-// Computes the scatter of the cycles in use.
-void sb_measured_band(SbMeasuredBand *out, const SbMeasured *measured);

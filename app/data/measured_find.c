@@ -79,12 +79,11 @@ static double opening(const SbMeasured *m, const GArray *turns) {
   return sum[0] / count[0] - sum[1] / count[1];
 }
 
-static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+static void find_direction(SbMeasured *m, const GArray *turn, const SbData *data, GPtrArray *list) {
   const char *said = data->text[SB_DATA_DIRECTION];
-  g_autoptr(GArray) turn = find_turns(m);
   if (said != NULL) {
     m->direction = SB_HOW_SAID;
-    const size_t turned = sb_data_word(data, SB_DATA_DIRECTION, sb_data_directions, issues) - 1;
+    const size_t turned = sb_data_word(data, SB_DATA_DIRECTION, sb_data_directions, list) - 1;
     m->turned_force = (turned & 1) != 0;
     m->turned_displacement = (turned & 2) != 0;
   } else {
@@ -107,9 +106,8 @@ static void find_direction(SbMeasured *m, const SbData *data, GPtrArray *issues)
   }
 }
 
-static bool find_cycles(SbMeasured *m, const SbData *data, GPtrArray *issues) {
+static bool find_cycles(SbMeasured *m, const GArray *turns, const SbData *data, GPtrArray *issues) {
   m->cycle = g_array_new(FALSE, FALSE, sizeof(SbMeasuredCycle));
-  g_autoptr(GArray) turns = find_turns(m);
   for (guint k = 0; k + 1 < turns->len && m->cycle->len < SB_MEASURED_CYCLES_MAX; k++) {
     const size_t from = g_array_index(turns, size_t, k);
     const size_t turn = g_array_index(turns, size_t, k + 1);
@@ -465,8 +463,9 @@ bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   if (!(high > low)) {
     return sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
   }
-  find_direction(m, data, issues);
-  if (issues->len > before || !find_cycles(m, data, issues) || !find_zero(m, data, issues)) {
+  g_autoptr(GArray) turns = find_turns(m);
+  find_direction(m, turns, data, issues);
+  if (issues->len > before || !find_cycles(m, turns, data, issues) || !find_zero(m, data, issues)) {
     return false;
   }
   settle_turns(m);

@@ -74,7 +74,7 @@ char *sb_measured_doubts(const SbMeasured *m) {
   if (m->dropped > 0) {
     g_string_append_printf(out,
                            "; %zu rows are dropped: a cell is empty or cannot be read, or they do "
-                           "not continue the table at a blank line or names",
+                           "not continue the table at a blank line, names or a label",
                            m->dropped);
   }
   if (m->lines.skipped > 0) {

@@ -5,11 +5,12 @@
 #include "app/data/measured_words.def"
 #undef SB_WORDS
 
-// Makes the forces of blocks behind a blank line or names that do not continue the table not a
-// number. Two of these are true of them: the time goes back; the displacement jumps further than
-// between rows of a long block; there are too few rows for a loop. The shorter side of the line is
-// dropped. A block whose time, or without time whose displacement, goes back is another test. Where
-// the time begins again, a block begins.
+// Makes the forces of blocks behind a blank line, names or a label that do not continue the table
+// not a number. Two of these are true of them: the time goes back; the displacement jumps further
+// than between rows of a long block; there are too few rows for a loop. The shorter side of the
+// line is dropped. A block whose time, or without time whose displacement, goes back is another
+// test. Where the time begins again, a block begins; a first row beyond all others, as of full
+// scales, is one.
 static void drop_blocks(SbMeasured *m, double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0, more = 0;
@@ -23,6 +24,11 @@ static void drop_blocks(SbMeasured *m, double *block) {
   for (size_t i = most; place != NULL && i < m->count; i++) {
     step = block[i] == block[i - most] ? fmax(step, fabs(place[i] - place[i - 1])) : step;
   }
+  bool beyond = place != NULL && m->count > 1;
+  for (size_t i = 1; beyond && i < m->count; i++) {
+    beyond = fabs(place[i]) < fabs(place[0]) && fabs(m->force[i]) < fabs(m->force[0]);
+  }
+  block[0] -= beyond;
   const char *line = m->lines.left_text != NULL ? m->lines.left_text : "";
   const bool cycles = g_regex_match_simple(CYCLE, line, G_REGEX_CASELESS, 0);
   for (size_t i = 0, end, kept = 0, last = 0; i < m->count; i = end) {

@@ -178,10 +178,10 @@ bool sb_document_read_file(SbDocument *document, SbFileKey key, const char *name
   bool good = false;
   switch (key) {
   case SB_FILE_DRIVE:
-    good = sb_series_read(&data->measured, SB_SERIES_DRIVE, path, issues);
+    good = sb_series_read(&data->measured, SB_SERIES_DRIVE, NULL, 0, path, issues);
     break;
   case SB_FILE_SHELF:
-    good = sb_series_read(&data->shelf, SB_SERIES_TEMPERATURE, path, issues);
+    good = sb_series_read(&data->shelf, SB_SERIES_TEMPERATURE, NULL, 0, path, issues);
     break;
   default: {
     GError *error = NULL;

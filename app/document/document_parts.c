@@ -163,7 +163,7 @@ static bool solve_mesh(SbSolid *solid, const SbPart *part, const char *file, con
                               : g_build_filename(directory, file, NULL);
   SbStl stl = {0};
   GError *error = NULL;
-  if (!sb_stl_read(&stl, path, unit->value, &error)) {
+  if (!sb_stl_read(&stl, NULL, 0, unit->value, path, &error)) {
     sb_part_complain(part, "stl", NULL, "%s", error->message);
     g_error_free(error);
     return false;

@@ -130,11 +130,16 @@ static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable 
   return good;
 }
 
-bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text, size_t length,
-                     const char *name, GPtrArray *issues) {
+bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *text, size_t length,
+                    const char *path, GPtrArray *issues) {
   out->count = 0;
-  g_autoptr(SbTextTable) table = sb_text_table_parse(text, length, NULL, name, issues);
-  const bool good = table != NULL && read_table(out, kind, table, name, issues);
+  g_autofree char *own = NULL;
+  if (text == NULL) {
+    text = own = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
+  }
+  g_autoptr(SbTextTable) table =
+      text != NULL ? sb_text_table_parse(text, length, NULL, path, issues) : NULL;
+  const bool good = table != NULL && read_table(out, kind, table, path, issues);
   if (!good) {
     sb_issues_forget_key(issues, "decimal points, dates as 2026-02-03, separators ; or tab");
   }
@@ -144,11 +149,4 @@ bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text, si
     out->time[i] -= start;
   }
   return good;
-}
-
-bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *path, GPtrArray *issues) {
-  size_t length = 0;
-  out->count = 0;
-  g_autofree char *text = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
-  return text != NULL && sb_series_parse(out, kind, text, length, path, issues);
 }

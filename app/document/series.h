@@ -2,7 +2,7 @@
 // any table (app/base/text_table.h), named with their units: "time [s]" and the values. Every line
 // after the header must be a row, at most SB_MODEL_SERIES_MAX. Times must increase strictly; the
 // first one is subtracted from all: the series begins at 0. The engine interpolates linearly.
-// All functions return false, *out then empty, with at least one issue (file, line, column, allowed
+// The function returns false, *out then empty, with at least one issue (file, line, column, allowed
 // range): no such series, above SB_SERIES_BYTES_MAX, value out of range. A series owns nothing.
 #pragma once
 
@@ -19,10 +19,7 @@ typedef enum {
   SB_SERIES_TEMPERATURE // "temperature [degC]", times up to 3.2e9 s; quantity is not changed
 } SbSeriesKind;
 
-// Reads the file `path`. Units of the columns are converted to SI, temperatures to K.
-SB_CHECKED bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *path,
-                               GPtrArray *issues);
-
-// As sb_series_read(), from the `length` bytes of a file; `name` is used as its path in messages.
-SB_CHECKED bool sb_series_parse(SbModelSeries *out, SbSeriesKind kind, const char *text,
-                                size_t length, const char *name, GPtrArray *issues);
+// Reads the `length` bytes of the file `path`, NULL: the file itself. Units of the columns are
+// converted to SI, temperatures to K.
+SB_CHECKED bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *text,
+                               size_t length, const char *path, GPtrArray *issues);

@@ -116,7 +116,7 @@ static void tell_kept(SbExportJob *job, GPtrArray *kept) {
 static SbMeasured *read_measured(const SbExportRequest *request) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   return request->measured != NULL
-             ? sb_measured_load(request->measured, request->drive_speed, issues)
+             ? sb_measured_read(request->measured, request->drive_speed, NULL, 0, issues)
              : NULL;
 }
 

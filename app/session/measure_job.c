@@ -13,7 +13,7 @@ struct SbMeasureJob {
 
 static void work_measure_job(void *owner) {
   SbMeasureJob *job = owner;
-  job->measured = sb_measured_load(job->data, job->speed, job->issues);
+  job->measured = sb_measured_read(job->data, job->speed, NULL, 0, job->issues);
 }
 
 SbMeasureJob *sb_measure_job_start(SbData *data, double speed, void (*done)(void *data),

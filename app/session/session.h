@@ -106,7 +106,7 @@ const SbMeasured *sb_session_measured(SbSession *session);
 // Returns why the measured data could not be read; NULL: no failure.
 const char *sb_session_measured_failure(SbSession *session);
 
-// Returns the speed of the present drive [m/s]; 0: not constant. sb_measured_load() requires it.
+// Returns the speed of the present drive [m/s]; 0: not constant. sb_measured_read() requires it.
 double sb_session_drive_speed(SbSession *session);
 
 // Adds a bookmark (`text`: its time with unit) or a note, changes the text of an existing one, or

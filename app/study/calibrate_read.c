@@ -98,7 +98,7 @@ bool sb_calibrate_read_curve(Curve *curve, const Work *work, GPtrArray *issues) 
   }
   const double speed = sb_data_drive_speed(set_value(curve, work, SB_P_DRIVE_KIND),
                                            set_value(curve, work, SB_P_DRIVE_SPEED));
-  curve->measured = sb_measured_load(curve->data, speed, issues);
+  curve->measured = sb_measured_read(curve->data, speed, NULL, 0, issues);
   if (curve->measured == NULL || !read_actuation(curve, issues)) {
     return false;
   }

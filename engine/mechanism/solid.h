@@ -76,10 +76,12 @@ SbStatus sb_profile_diameters(SbProfileDiameters *out, const SbProfile *profile,
 // Writes the unit vector of the axis about which a body is closest to a body of revolution;
 // `inertia` is its tensor (SbSolid). The asymmetry of an axis is the difference of the two moments
 // across it divided by their sum, including the products of inertia. The result is the coordinate
-// axis with the smallest asymmetry. If that exceeds 2 % and a principal axis has less than 2 % and
-// less than a tenth of it, it is this principal axis. The largest component of the result is
-// positive.
-void sb_solid_axis(double axis[3], const double inertia[3][3]);
+// axis with the smallest asymmetry. If that exceeds 2 %, or a tenth of the asymmetry of the second
+// best principal axis, and a principal axis has less than 2 % and less than a tenth of it, it is
+// this principal axis. The largest component of the result is positive. Returns whether the axis is
+// unique: false if the second best principal axis has less than 2 % too, and not ten times that of
+// the best one, as in a ball.
+bool sb_solid_axis(double axis[3], const double inertia[3][3]);
 
 // Orients the triangles of a mesh. A part is a set of triangles that are connected by edges of
 // exactly two triangles. A closed part within an odd number of others is a cavity of the innermost

@@ -14,7 +14,7 @@ static double asymmetry(const double inertia[3][3], int k) {
   return hypot(across, along) / (inertia[a][a] + inertia[b][b]);
 }
 
-void sb_solid_axis(double axis[3], const double inertia[3][3]) {
+bool sb_solid_axis(double axis[3], const double inertia[3][3]) {
   static const double UNEVEN = 0.02, CLEARLY = 0.1;
   double a[9], values[3], vectors[9], principal[3][3] = {{0}};
   int best = 0, other = 0, largest = 0;
@@ -30,15 +30,17 @@ void sb_solid_axis(double axis[3], const double inertia[3][3]) {
     principal[k][k] = values[k];
     best = asymmetry(inertia, k) < asymmetry(inertia, best) ? k : best;
   }
+  double own[3], second = INFINITY;
   for (int k = 0; k < 3; k++) {
-    other = asymmetry((const double(*)[3])principal, k) <
-                    asymmetry((const double(*)[3])principal, other)
-                ? k
-                : other;
+    own[k] = asymmetry((const double(*)[3])principal, k);
+    other = own[k] < own[other] ? k : other;
+  }
+  for (int k = 0; k < 3; k++) {
+    second = k != other ? fmin(second, own[k]) : second;
   }
   const double off = asymmetry(inertia, best);
   const bool turned =
-      off > UNEVEN && asymmetry((const double(*)[3])principal, other) < fmin(UNEVEN, CLEARLY * off);
+      off > fmin(UNEVEN, CLEARLY * second) && own[other] < fmin(UNEVEN, CLEARLY * off);
   for (int k = 0; k < 3; k++) {
     axis[k] = turned ? vectors[3 * k + other] : k == best;
     largest = fabs(axis[k]) > fabs(axis[largest]) ? k : largest;
@@ -47,4 +49,5 @@ void sb_solid_axis(double axis[3], const double inertia[3][3]) {
     axis[k] = k == largest ? axis[k] : -axis[k];
   }
   axis[largest] = fabs(axis[largest]);
+  return second > UNEVEN || own[other] < CLEARLY * second;
 }

@@ -184,30 +184,50 @@ static void test_stem(void) {
   }
 }
 
-// With a port: the kernel's volume, the section beside it, and a difference that tells.
-static void test_port(void) {
-  begin();
-  int ierr, body[2] = {3, make_stem()}, *out, **map;
+// Returns a body less a tool, or what both have in common.
+static int combine(int body, int tool, bool common) {
+  int ierr, *out, **map, object[2] = {3, body}, with[2] = {3, tool};
   size_t count, *map_counts, maps;
-  int drill[2] = {3, gmshModelOccAddCylinder(8.6, 0, -5, 0, 0, 10, 0.3, -1, 2 * M_PI, &ierr)};
-  gmshModelOccCut(body, 2, drill, 2, &out, &count, &map, &map_counts, &maps, -1, 1, 1, &ierr);
+  if (common) {
+    gmshModelOccIntersect(object, 2, with, 2, &out, &count, &map, &map_counts, &maps, -1, 1, 1,
+                          &ierr);
+  } else {
+    gmshModelOccCut(object, 2, with, 2, &out, &count, &map, &map_counts, &maps, -1, 1, 1, &ierr);
+  }
+  g_assert_cmpint(ierr, ==, 0);
+  g_assert_cmpuint(count, ==, 2);
+  const int tag = out[1];
   for (size_t i = 0; i < maps; i++) {
     gmshFree(map[i]);
   }
   gmshFree(map);
   gmshFree(map_counts);
-  g_assert_cmpint(ierr, ==, 0);
-  g_assert_cmpuint(count, ==, 2);
-  const Measured kernel = measure(out[1], (const double[]){1, 0, 0});
   gmshFree(out);
-  g_autoptr(SbCad) cad = through_file("port.stp", 0.658);
-  finish();
-  const SbCadBody *read = cad->bodies->pdata[0];
-  check_measured(read, &kernel, 1e-9);
-  check_stem(read, 0);
-  // The hole is some pi/4 0.6^2 5.8 mm3.
-  g_assert_cmpfloat_with_epsilon(1e9 * (read->revolved.volume - read->solid.volume),
-                                 M_PI * 0.09 * 5.8, 0.02);
+  return tag;
+}
+
+// With a port: the kernel's volume, the section beside it, and a difference that tells. Where the
+// port is in the half-plane that is tried first, another one is used.
+static void test_port(void) {
+  for (int kind = 0; kind < 2; kind++) {
+    begin();
+    int ierr;
+    const int drill = gmshModelOccAddCylinder(8.6, 0, -5, 0, 0, 10, 0.3, -1, 2 * M_PI, &ierr);
+    int body[2] = {3, combine(make_stem(), drill, false)};
+    const double angle = 0.658;
+    gmshModelOccRotate(body, 2, 0, 0, 0, 1, 0, 0, kind == 1 ? 0.658 - M_PI / 2 : 0, &ierr);
+    g_assert_cmpint(ierr, ==, 0);
+    const Measured kernel = measure(body[1], (const double[]){1, 0, 0});
+    const SbCadChoices choices = {.angle = kind == 0 ? &angle : NULL};
+    g_autoptr(SbCad) cad = read_through_file("port.stp", &choices);
+    finish();
+    const SbCadBody *read = cad->bodies->pdata[0];
+    check_measured(read, &kernel, 1e-9);
+    check_stem(read, 0);
+    // The hole is some pi/4 0.6^2 5.8 mm3.
+    g_assert_cmpfloat_with_epsilon(1e9 * (read->revolved.volume - read->solid.volume),
+                                   M_PI * 0.09 * 5.8, 0.02);
+  }
 }
 
 // Scaled by next to nothing, all faces become splines, on which the kernel's quadrature is wrong by
@@ -269,23 +289,12 @@ static void test_ball(void) {
 static void test_ball_axis(void) {
   for (int kind = 0; kind < 2; kind++) {
     begin();
-    int ierr, *out;
-    size_t count;
-    int body[2] = {3, gmshModelOccAddSphere(0, 0, 0, 2, -1, kind == 0 ? 0 : -M_PI / 2, M_PI / 2,
-                                            2 * M_PI, &ierr)};
+    int ierr, body[2] = {3, gmshModelOccAddSphere(0, 0, 0, 2, -1, kind == 0 ? 0 : -M_PI / 2,
+                                                  M_PI / 2, 2 * M_PI, &ierr)};
     if (kind == 1) {
-      int **map;
-      size_t *map_n, maps;
-      int ball[2] = {3,
-                     gmshModelOccAddSphere(0, 0, 3, 2, -1, -M_PI / 2, M_PI / 2, 2 * M_PI, &ierr)};
-      gmshModelOccIntersect(body, 2, ball, 2, &out, &count, &map, &map_n, &maps, -1, 1, 1, &ierr);
-      for (size_t i = 0; i < maps; i++) {
-        gmshFree(map[i]);
-      }
-      gmshFree(map);
-      gmshFree(map_n);
-      body[1] = out[1];
-      gmshFree(out);
+      body[1] = combine(body[1],
+                        gmshModelOccAddSphere(0, 0, 3, 2, -1, -M_PI / 2, M_PI / 2, 2 * M_PI, &ierr),
+                        true);
     }
     gmshModelOccRotate(body, 2, 0, 0, 0, 1, 0, 0, -0.5, &ierr);
     g_assert_cmpint(ierr, ==, 0);
@@ -296,6 +305,23 @@ static void test_ball_axis(void) {
     g_assert_cmpfloat_with_epsilon(read->revolved.volume / read->solid.volume, 1, 1e-6);
     g_assert_cmpuint(cad->warnings->len, ==, 0);
   }
+}
+
+// A ball with two flats, which are not parallel: the axis must be chosen.
+static void test_ball_planes(void) {
+  int ierr;
+  begin();
+  const int ball = gmshModelOccAddSphere(0, 0, 0, 2, -1, -M_PI / 2, M_PI / 2, 2 * M_PI, &ierr);
+  combine(ball, gmshModelOccAddBox(-1.5, -1.2, -3, 5, 5, 6, -1, &ierr), true);
+  const double along[3] = {1, 0, 0};
+  g_autoptr(SbCad) cad = read_through_file("ball.step", &(SbCadChoices){.axis = along});
+  finish();
+  g_assert_cmpstr(cad->axis, ==, "through 0, 0, 0 mm along 1, 0, 0");
+  g_autoptr(GError) error = NULL;
+  g_autofree char *path = g_build_filename(folder, "ball.step", NULL);
+  g_assert_null(sb_cad_read(path, &(SbCadChoices){0}, &error));
+  assert_choice(sb_app_error_choice(error), error->message, "axis", "x\ny\nz");
+  g_assert_nonnull(strstr(error->message, "planes of several directions"));
 }
 
 // Not there, not STEP, cut short, of no solid, and lengths that no double holds.
@@ -380,6 +406,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cad-step/splines", test_splines);
   g_test_add_func("/cad-step/ball", test_ball);
   g_test_add_func("/cad-step/ball-axis", test_ball_axis);
+  g_test_add_func("/cad-step/ball-planes", test_ball_planes);
   g_test_add_func("/cad-step/broken", test_broken);
   g_test_add_func("/cad-step/limit", test_limit);
   const int code = g_test_run();

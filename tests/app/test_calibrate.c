@@ -178,7 +178,7 @@ static void test_recovers(void) {
     g_assert_cmpfloat(sb_document_value(scene, truth[j].id), ==, found.parameter[j].estimate);
   }
   // Its data are the same rows by what it says of them.
-  g_autoptr(SbMeasured) again = sb_measured_load(sb_document_data(scene, 0), 0, issues);
+  g_autoptr(SbMeasured) again = sb_measured_read(sb_document_data(scene, 0), 0, NULL, 0, issues);
   g_assert_nonnull(again);
   g_assert_cmpmem(again->force, again->count * sizeof(double), found.curve[0].measured->force,
                   again->count * sizeof(double));

@@ -39,7 +39,7 @@ static void assert_same(const SbScan *scan, const SbHeights *h, double error) {
 
 static void parse(SbScan *out, const GByteArray *bytes, const SbScanChoices *choices) {
   GError *error = NULL;
-  if (!sb_scan_parse(out, (const char *)bytes->data, bytes->len, choices, "scan", &error)) {
+  if (!sb_scan_read(out, (const char *)bytes->data, bytes->len, choices, "scan", &error)) {
     g_error("%s", error->message);
   }
 }
@@ -49,7 +49,7 @@ static void assert_refused(const char *data, gsize length, const SbScanChoices *
                            const char *why) {
   SbScan scan;
   GError *error = NULL;
-  g_assert_false(sb_scan_parse(&scan, data, length, choices, "scan", &error));
+  g_assert_false(sb_scan_read(&scan, data, length, choices, "scan", &error));
   g_assert_nonnull(error);
   g_assert_true(error->domain == SB_APP_ERROR && g_str_has_prefix(error->message, "scan: "));
   g_assert_true(g_utf8_validate(error->message, -1, NULL) && strchr(error->message, '\n') == NULL);
@@ -65,7 +65,7 @@ static void assert_chosen(const char *data, gsize length, const SbScanChoices *c
                           const char *key, const char *values) {
   SbScan scan;
   g_autoptr(GError) error = NULL;
-  g_assert_false(sb_scan_parse(&scan, data, length, choices, "scan", &error));
+  g_assert_false(sb_scan_read(&scan, data, length, choices, "scan", &error));
   assert_choice(sb_app_error_choice(error), error->message, key, values);
 }
 
@@ -132,7 +132,7 @@ static void test_x3p(void) {
   SbHeights h = written();
   GError *error = NULL;
   SbScan none;
-  if (!sb_scan_parse(&none, "PK\3\4", 4, &plain, "scan", &error) &&
+  if (!sb_scan_read(&none, "PK\3\4", 4, &plain, "scan", &error) &&
       strstr(error->message, "option `x3p`") != NULL) {
     g_test_skip("built without libzip");
     g_error_free(error);
@@ -222,7 +222,7 @@ static GString *matrix(const char *header, const char *separator, char decimal,
 static void assert_text(const GString *text, const SbScanChoices *choices, const SbHeights *h) {
   SbScan scan;
   GError *error = NULL;
-  if (!sb_scan_parse(&scan, text->str, text->len, choices, "scan", &error)) {
+  if (!sb_scan_read(&scan, text->str, text->len, choices, "scan", &error)) {
     g_error("%s\n%.300s", error->message, text->str);
   }
   assert_same(&scan, h, 1e-20);
@@ -300,9 +300,9 @@ static void test_matrix(void) {
                                         "\"1,000,000\",\"2,000\"\n3,\"4,000\"\n"};
   for (size_t i = 0; i < G_N_ELEMENTS(grouped); i++) {
     SbScan scan;
-    g_assert_true(sb_scan_parse(&scan, grouped[i], strlen(grouped[i]),
-                                &(SbScanChoices){.unit = 1, .spacing = 1, .lateral_unit = 1},
-                                "scan", NULL));
+    g_assert_true(sb_scan_read(&scan, grouped[i], strlen(grouped[i]),
+                               &(SbScanChoices){.unit = 1, .spacing = 1, .lateral_unit = 1}, "scan",
+                               NULL));
     g_assert_cmpfloat(scan.heights.z[1], ==, i == 0 ? 4000.5 : 4000);
     sb_scan_clear(&scan);
   }
@@ -329,7 +329,7 @@ static void test_resolution(void) {
   SbScan scan;
   static const char text[] =
       "dx: 1 um\ndy: 1 um\nZ resolution: 2 nm\nZ unit: nm\n1 2 3 4\n2 3 4 1\n";
-  g_assert_true(sb_scan_parse(&scan, text, strlen(text), &plain, "scan", NULL));
+  g_assert_true(sb_scan_read(&scan, text, strlen(text), &plain, "scan", NULL));
   g_assert_cmpuint(scan.notes->len, ==, 1);
   g_assert_cmpstr(scan.notes->pdata[0], ==,
                   "line 3: \"z resolution\" 2 nm does not multiply the heights");
@@ -367,7 +367,7 @@ static void test_commas(void) {
     const SbScanChoices choices = {.unit = 1e-9, .spacing = 1e-6, .decimal = cases[i].decimal};
     SbScan scan;
     GError *error = NULL;
-    sb_scan_parse(&scan, cases[i].text, strlen(cases[i].text), &choices, "scan", &error);
+    sb_scan_read(&scan, cases[i].text, strlen(cases[i].text), &choices, "scan", &error);
     g_assert_no_error(error);
     g_assert_cmpuint(scan.heights.columns, ==, cases[i].columns);
     g_assert_cmpuint(scan.heights.rows, ==, cases[i].rows);
@@ -431,6 +431,7 @@ static void test_headers(void) {
       "# Canal : Hauteur\n# Largeur : 10,0 \xc2\xb5m\n# Hauteur : 34 \xc2\xb5m\n"
       "# Unit\xc3\xa9 des valeurs : nm\n";
   static const char *const factor = "Width: 10 um\nHeight: 34 um\nZ unit: um\nZ factor: 0.001\n";
+  static const char *const times = "X step: 0.5 um\nY step: 2 um\nHeight: x 0.001 um\n";
   static const char *const scale = "Width: 10 um\nHeight: 34 um\nZ-Scale [pm]: 1000\n";
   const struct {
     const char *header;
@@ -440,6 +441,8 @@ static void test_headers(void) {
       {french, ','},
       {factor, '.'},
       {scale, '.'},
+      {times, '.'},
+      {"X step: 0.5 um\nY step: 2 um\nZ: \xc3\x97 1 nm\n", '.'},
       {"Width: 10 um\nHeight: 34 um\nUnit: nm\n", '.'},
       {"\"Breite\";\"10,0\";\"um\"\n\"H\xc3\xb6he\";\"34\";\"um\"\n\"Einheit\";\"nm\"\n", ','}};
   // Lines that may be factors; lines that contradict the header.
@@ -449,6 +452,7 @@ static void test_headers(void) {
                                        "Sensitivity: 0.25 um/V",
                                        "Data in 1/10 um",
                                        "Unit: 0.1 um",
+                                       "Vertical magnification: x 50",
                                        "Counts per um: 4000",
                                        "Z\xe4\xbf\x82\xe6\x95\xb0: 0.25",
                                        "Columns: 17\nRows: 20"};
@@ -466,14 +470,17 @@ static void test_headers(void) {
     assert_text(text, &plain, &h);
     g_string_free(text, TRUE);
   }
-  GString *text = matrix(factor, "\t", '.', "nan");
-  SbScan scan;
-  g_assert_true(
-      sb_scan_parse(&scan, text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "x", NULL));
-  assert_same(&scan, &h, 1e-20);
-  g_assert_nonnull(strstr(scan.notes->pdata[0], "factor 0.001 is not used"));
-  sb_scan_clear(&scan);
-  g_string_free(text, TRUE);
+  GString *text = NULL;
+  for (int i = 0; i < 2; i++) {
+    text = matrix(i == 0 ? factor : times, "\t", '.', "nan");
+    SbScan scan;
+    g_assert_true(
+        sb_scan_read(&scan, text->str, text->len, &(SbScanChoices){.unit = 1e-9}, "x", NULL));
+    assert_same(&scan, &h, 1e-20);
+    g_assert_nonnull(strstr(scan.notes->pdata[0], "factor 0.001 is not used"));
+    sb_scan_clear(&scan);
+    g_string_free(text, TRUE);
+  }
   // ESRI with decimal commas; a profile whose units follow the names; blocks of results above.
   h.dy = h.dx;
   text = matrix("ncols 20\nnrows 17\nxllcorner 0,0\nyllcorner 0,0\ncellsize 0,5\n"
@@ -669,7 +676,7 @@ static void test_numbers(void) {
   }
   SbScan scan;
   g_assert_true(
-      sb_scan_parse(&scan, text->str, text->len, &(SbScanChoices){.spacing = 1}, "scan", NULL));
+      sb_scan_read(&scan, text->str, text->len, &(SbScanChoices){.spacing = 1}, "scan", NULL));
   for (size_t i = 0; i < G_N_ELEMENTS(numbers); i++) {
     g_assert_cmpfloat(scan.heights.z[i], ==, g_ascii_strtod(numbers[i], NULL));
   }
@@ -677,7 +684,7 @@ static void test_numbers(void) {
 }
 
 static void test_refused(void) {
-  assert_refused("", 0, &plain, "no numbers");
+  assert_refused("", 0, &plain, "it is empty");
   assert_refused("hello\nworld\n", 12, &plain, "no numbers");
   assert_refused("\0\1\2", 3, &plain, "not a scan that is known");
   assert_refused("0,5\n0,6\n0,7\n", 12, &plain, "is ambiguous");
@@ -685,10 +692,10 @@ static void test_refused(void) {
                  &(SbScanChoices){.unit = 1e-9}, "3 numbers where the header announces");
   SbScan scan;
   GError *error = NULL;
-  g_assert_false(sb_scan_read(&scan, "/dev/null/nothing.gwy", &plain, &error));
+  g_assert_false(sb_scan_read(&scan, NULL, 0, &plain, "/dev/null/nothing.gwy", &error));
   g_assert_true(g_str_has_prefix(error->message, "/dev/null/nothing.gwy: "));
   g_clear_error(&error);
-  g_assert_false(sb_scan_read(&scan, "/dev/zero", &plain, &error));
+  g_assert_false(sb_scan_read(&scan, NULL, 0, &plain, "/dev/zero", &error));
   g_assert_true(strstr(error->message, "regular file") != NULL);
   g_clear_error(&error);
 }

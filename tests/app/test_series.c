@@ -20,7 +20,7 @@ static void test_read(void) {
   const char text[] =
       "\xef\xbb\xbf# a comment\r\n time [ms] ; force [kN]\r\n\r\n100; 0\r\n 350 ;1.25e-3\r\n";
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_assert_true(sb_series_parse(&series, SB_SERIES_DRIVE, text, strlen(text), "x.csv", issues));
+  g_assert_true(sb_series_read(&series, SB_SERIES_DRIVE, text, strlen(text), "x.csv", issues));
   g_assert_cmpuint(series.count, ==, 2);
   g_assert_cmpint(series.quantity, ==, SB_DRIVE_OF_FORCE);
   g_assert_cmpfloat(series.time[0], ==, 0); // counts from the first row
@@ -33,7 +33,7 @@ static void test_refused(void) {
   static const struct {
     const char *text, *said;
   } cases[] = {
-      {"", "x.csv: has no rows of two numbers"},
+      {"", "x.csv: is empty"},
       {"time [s],force [N]\n0,0\n1,1\n2,1,5,1\n",
        "x.csv: line 4: \"2,1,5,1\" is not a row of the series (allowed two numbers)"},
       {"0,0\n1,1\n", "x.csv: column 1 has no heading (allowed time [s])"},
@@ -56,8 +56,8 @@ static void test_refused(void) {
   };
   for (size_t i = 0; i < G_N_ELEMENTS(cases); i++) {
     g_autoptr(GPtrArray) issues = sb_issues_new();
-    g_assert_false(sb_series_parse(&series, SB_SERIES_DRIVE, cases[i].text, strlen(cases[i].text),
-                                   "x.csv", issues));
+    g_assert_false(sb_series_read(&series, SB_SERIES_DRIVE, cases[i].text, strlen(cases[i].text),
+                                  "x.csv", issues));
     g_assert_cmpuint(issues->len, ==, 1);
     g_autofree char *line = sb_issue_line(issues->pdata[0]);
     if (!g_str_has_prefix(line, cases[i].said)) {
@@ -70,7 +70,7 @@ static void test_refused(void) {
     g_string_append_printf(text, "%d,1\n", i);
   }
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_assert_false(sb_series_parse(&series, SB_SERIES_DRIVE, text->str, text->len, "x.csv", issues));
+  g_assert_false(sb_series_read(&series, SB_SERIES_DRIVE, text->str, text->len, "x.csv", issues));
   g_string_free(text, TRUE);
 }
 
@@ -85,7 +85,7 @@ static void test_followed(void) {
   g_assert_cmpuint(issues->len, ==, 0);
   g_autoptr(SbModel) model = NULL;
   g_assert_true(sb_document_compile(document, &model, issues));
-  g_assert_true(sb_series_read(&series, SB_SERIES_DRIVE, csv, issues));
+  g_assert_true(sb_series_read(&series, SB_SERIES_DRIVE, NULL, 0, csv, issues));
   SbRun *run = executed_run(model);
   size_t count, row = 0;
   const SbFrame *frame = sb_run_frames(run, &count);
@@ -170,12 +170,12 @@ static void test_shelf(void) {
   g_autofree char *csv = g_build_filename(folder, "t.csv", NULL);
   g_autofree char *valve = g_build_filename(folder, "a.valve", NULL);
   g_assert_true(g_file_set_contents(csv, "time [day],temperature [degC]\n0,5\n100,40\n", -1, NULL));
-  g_assert_true(sb_series_read(&series, SB_SERIES_TEMPERATURE, csv, issues));
+  g_assert_true(sb_series_read(&series, SB_SERIES_TEMPERATURE, NULL, 0, csv, issues));
   g_assert_cmpuint(series.count, ==, 2);
   ASSERT_NEAR(series.time[1], 100 * 86400.0, 1e-6);
   ASSERT_NEAR(series.value[1], 313.15, 1e-9);
   g_assert_true(g_file_set_contents(csv, "time [h],temperature [K]\n0,280\n9,600\n", -1, NULL));
-  g_assert_false(sb_series_read(&series, SB_SERIES_TEMPERATURE, csv, issues));
+  g_assert_false(sb_series_read(&series, SB_SERIES_TEMPERATURE, NULL, 0, csv, issues));
   g_assert_cmpuint(issues->len, ==, 1);
   g_assert_true(g_file_set_contents(csv, "time [day],temperature [degC]\n0,5\n100,40\n", -1, NULL));
   static const char text[] = "[sealbench]\nformat = 1\nkind = valve\n[shelf]\nhistory = file\n%s";

@@ -249,7 +249,7 @@ static void test_axis(void) {
       inertia[k / 3][k % 3] = (k % 4 == 0 ? 3 : 0) - 2 * d[k / 3] * d[k % 3];
     }
     inertia[0][0] += i % 2 * 0.01; // not quite round, as with ports
-    sb_solid_axis(axis, (const double(*)[3])inertia);
+    g_assert_true(sb_solid_axis(axis, (const double(*)[3])inertia));
     ASSERT_NEAR(fabs(axis[0] * d[0] + axis[1] * d[1] + axis[2] * d[2]), 1,
                 i % 2 == 0 ? 1e-14 : 1e-4);
     g_assert_cmpfloat(fmax(axis[0], fmax(axis[1], axis[2])), >, 0.57);
@@ -257,11 +257,18 @@ static void test_axis(void) {
   const double plain[2][3][3] = {{{3, 0, 0.01}, {0, 1, 0}, {0.01, 0, 3}},
                                  {{2, 0, 0}, {0, 3.9, 0}, {0, 0, 4}}};
   for (int i = 0; i < 2; i++) {
-    sb_solid_axis(axis, plain[i]);
+    g_assert_true(sb_solid_axis(axis, plain[i]));
     for (int k = 0; k < 3; k++) {
       g_assert_cmpfloat(axis[k], ==, k == 1 - i);
     }
   }
+  // Nearly equal moments: about the line between x and y, and about none.
+  const double close[2][3][3] = {{{3, 0.01, 0}, {0.01, 3, 0}, {0, 0, 2.99}},
+                                 {{3, 0, 0}, {0, 3.02, 0}, {0, 0, 3.03}}};
+  g_assert_true(sb_solid_axis(axis, close[0]));
+  ASSERT_NEAR(axis[0], sqrt(0.5), 1e-12);
+  ASSERT_NEAR(axis[1], sqrt(0.5), 1e-12);
+  g_assert_false(sb_solid_axis(axis, close[1]));
 }
 
 // A cube around a cubic cavity. Wherever facets, or all of them, are reversed, they are turned

@@ -12,7 +12,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   g_autoptr(GPtrArray) issues = sb_issues_new();
   SbData *group = sb_data_of_file("fuzz");
   g_autoptr(SbMeasured) measured =
-      sb_measured_parse(group, size % 3 == 0 ? 1e-3 : 0, data, size, issues);
+      sb_measured_read(group, size % 3 == 0 ? 1e-3 : 0, data, size, issues);
   g_assert_true((measured != NULL) == (issues->len == 0));
   for (guint i = 0; i < issues->len; i++) {
     g_autofree char *line = sb_issue_line(issues->pdata[i]);

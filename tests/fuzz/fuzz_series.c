@@ -11,7 +11,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   static SbModelSeries series;
   GPtrArray *issues = sb_issues_new();
-  bool good = sb_series_parse(&series, SB_SERIES_DRIVE, (const char *)data, size, "fuzz", issues);
+  bool good = sb_series_read(&series, SB_SERIES_DRIVE, (const char *)data, size, "fuzz", issues);
   g_assert_cmpuint(issues->len, ==, good ? 0 : 1);
   if (good) {
     SbDrive drive = {.kind = SB_DRIVE_TABLE,

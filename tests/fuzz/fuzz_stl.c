@@ -33,7 +33,7 @@ static void as_drawing(const char *data, size_t size) {
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
   SbStl stl;
   GError *error = NULL;
-  if (!sb_stl_parse(&stl, (const char *)data, size, "mm", "fuzz", &error)) {
+  if (!sb_stl_read(&stl, (const char *)data, size, "mm", "fuzz", &error)) {
     g_assert_true(error->domain == SB_APP_ERROR && g_utf8_validate(error->message, -1, NULL));
     g_assert_true(stl.vertices == NULL && stl.triangles == NULL);
     g_error_free(error);

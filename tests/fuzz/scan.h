@@ -14,7 +14,7 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 static inline void fuzz_scan(const void *data, size_t size, const SbScanChoices *choices) {
   SbScan scan;
   GError *error = NULL;
-  if (!sb_scan_parse(&scan, data, size, choices, "fuzz", &error)) {
+  if (!sb_scan_read(&scan, data, size, choices, "fuzz", &error)) {
     g_assert_true(error->domain == SB_APP_ERROR);
     g_assert_true(g_utf8_validate(error->message, -1, NULL));
     g_assert_null(strchr(error->message, '\n'));

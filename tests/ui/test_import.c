@@ -88,7 +88,7 @@ static char *ambiguous_table(bool decimal) {
   g_autofree char *path = g_strdup_printf("%s/series/bench.csv", g_getenv("SEALBENCH_ASSETS"));
   SbData *data = sb_data_of_file(path);
   g_autoptr(GPtrArray) issues = sb_issues_new();
-  g_autoptr(SbMeasured) m = sb_measured_load(data, 0, issues);
+  g_autoptr(SbMeasured) m = sb_measured_read(data, 0, NULL, 0, issues);
   g_assert_nonnull(m);
   sb_data_free(data);
   GString *out = g_string_new(decimal ? "Weg [mm];Kraft [N]\n" : "Weg [mm];Stroke [mm];Kraft\n");

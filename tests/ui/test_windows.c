@@ -149,7 +149,7 @@ static void test_import(void) {
   g_assert_cmpuint(issues->len, ==, 0);
   g_assert_cmpuint(sb_document_data_count(again), ==, 1);
   g_assert_cmpstr(sb_document_data(again, 0)->text[SB_DATA_SEPARATOR], ==, found);
-  g_autoptr(SbMeasured) measured = sb_measured_load(sb_document_data(again, 0), 0, issues);
+  g_autoptr(SbMeasured) measured = sb_measured_read(sb_document_data(again, 0), 0, NULL, 0, issues);
   g_assert_nonnull(measured);
   g_assert_cmpuint(measured->count, ==, sb_session_measured(session)->count);
   g_remove(path);

@@ -26,7 +26,7 @@ static bool choose_scan(void *object, const char *name, const char *text, GError
 static bool read_scan(void *object, const char *path, GError **error) {
   Scan *of = object;
   SbReport report = {0};
-  if (!sb_scan_read(&of->scan, path, &of->choices.scan, error)) {
+  if (!sb_scan_read(&of->scan, NULL, 0, &of->choices.scan, path, error)) {
     return false;
   }
   if (sb_scan_figures(&of->figures, &of->scan.heights, &of->choices.heights, &report) != SB_OK) {

@@ -62,10 +62,8 @@ static bool read_format(SbScan *out, SbScanBytes file, const SbScanChoices *wish
                  {"PK\x03\x04", sb_scan_parse_x3p}, {"aISO-1.0", sb_scan_parse_sdf},
                  {"aBCR-1.0", sb_scan_parse_sdf},   {"bISO-1.0", sb_scan_parse_sdf},
                  {"bBCR-1.0", sb_scan_parse_sdf},   {"", sb_scan_parse_text}};
-  const gsize length = (gsize)(file.end - file.at);
   gsize format = 0;
-  for (gsize skip; skip = strlen(formats[format].start),
-                   skip > length || memcmp(file.at, formats[format].start, skip) != 0;) {
+  while (!sb_bytes_begin(file.at, (gsize)(file.end - file.at), formats[format].start)) {
     format++;
   }
   if (*formats[format].start != '\0' && (wish->unit > 0 || wish->lateral_unit > 0)) {
@@ -91,28 +89,23 @@ static bool read_format(SbScan *out, SbScanBytes file, const SbScanChoices *wish
   return true;
 }
 
-gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
-                       const char *name, GError **error) {
-  const guchar *bytes = (const guchar *)data;
+gboolean sb_scan_read(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
+                      const char *path, GError **error) {
+  const int code = SB_APP_ERROR_INPUT;
+  g_autofree char *own =
+      data == NULL ? sb_reader_load_file(&length, path, path, SB_SCAN_BYTES_MAX, code, error)
+                   : NULL;
+  const guchar *bytes = (const guchar *)(data != NULL ? data : own);
   *out = (SbScan){.notes = g_ptr_array_new_with_free_func(g_free)};
-  const bool good = read_format(out, (SbScanBytes){bytes, bytes + length}, choices, error);
-  if (!good) {
-    sb_app_error_prefix(error, name);
+  const bool good =
+      bytes != NULL && read_format(out, (SbScanBytes){bytes, bytes + length}, choices, error);
+  if (good) {
+    out->sha256 = g_compute_checksum_for_data(G_CHECKSUM_SHA256, bytes, length);
+  } else {
+    sb_app_error_prefix(bytes != NULL ? error : NULL, path);
     sb_scan_clear(out);
   }
   return good;
-}
-
-gboolean sb_scan_read(SbScan *out, const char *path, const SbScanChoices *choices, GError **error) {
-  *out = (SbScan){0};
-  gsize length = 0;
-  g_autofree char *data =
-      sb_reader_load_file(&length, path, path, SB_SCAN_BYTES_MAX, SB_APP_ERROR_INPUT, error);
-  if (data == NULL || !sb_scan_parse(out, data, length, choices, path, error)) {
-    return FALSE;
-  }
-  out->sha256 = g_compute_checksum_for_data(G_CHECKSUM_SHA256, (const guchar *)data, length);
-  return TRUE;
 }
 
 void sb_scan_clear(SbScan *scan) {

@@ -36,17 +36,15 @@ typedef struct {
   SbHeights heights;  // heights [m], a row after the other, NaN: missing; z is owned by the scan
   const char *format; // for the user, such as "Gwyddion"; static
   char *title;        // of the channel or object; NULL: none
-  char *sha256;       // of the file, 64 hexadecimal digits; NULL after sb_scan_parse()
+  char *sha256;       // of the file, 64 hexadecimal digits
   GPtrArray *notes;   // of char *: sentences on how the file was read; may be empty
 } SbScan;
 
-// Reads the file `path`. Returns FALSE, with an empty `out`, and SB_APP_ERROR_INPUT (not readable,
-// refused, without a unit or distance) or SB_APP_ERROR_IO (no memory); the message names the file.
-gboolean sb_scan_read(SbScan *out, const char *path, const SbScanChoices *choices, GError **error);
-
-// As sb_scan_read(), from the `length` bytes of a file; `name` is used as its path in messages.
-gboolean sb_scan_parse(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
-                       const char *name, GError **error);
+// Reads the `length` bytes of the file `path`, NULL: the file itself. Returns FALSE, with an empty
+// `out`, and SB_APP_ERROR_INPUT (not readable, refused, without a unit or distance) or
+// SB_APP_ERROR_IO (no memory); the message names the file.
+gboolean sb_scan_read(SbScan *out, const char *data, gsize length, const SbScanChoices *choices,
+                      const char *path, GError **error);
 
 // Frees what a scan owns; it is then empty (all zeros), which may be cleared again.
 void sb_scan_clear(SbScan *scan);

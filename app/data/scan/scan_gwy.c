@@ -101,20 +101,26 @@ static const char *unit_of(const Component *field, const char *name) {
   return known ? (const char *)text.value : "";
 }
 
+// The number of a component; 0 without.
+static double number_of(const Component *field, char kind, const char *name) {
+  Component number;
+  return !find(&number, field, kind, name) ? 0
+         : kind == 'i'                     ? sb_bytes_u32(number.value)
+                                           : sb_bytes_double(number.value);
+}
+
 static bool read_field(Field *out, const Component *field, GError **error) {
-  Component columns, rows, width, height, data;
-  const bool sized = find(&columns, field, 'i', "xres") && find(&rows, field, 'i', "yres");
-  *out = (Field){.unit_xy = unit_of(field, "si_unit_xy"), .unit_z = unit_of(field, "si_unit_z")};
-  out->columns = sized ? sb_bytes_u32(columns.value) : 0;
-  out->rows = sized ? sb_bytes_u32(rows.value) : 0;
-  out->width = find(&width, field, 'd', "xreal") ? sb_bytes_double(width.value) : 0;
-  out->height = find(&height, field, 'd', "yreal") ? sb_bytes_double(height.value) : 0;
+  Component data;
   const bool known = find(&data, field, 'D', "data") && data.count > 0;
-  if (!known || out->columns * out->rows != data.count) {
-    return sb_app_error_input(error, "a data field's size is not that of its data");
-  }
-  out->data = data.value;
-  return true;
+  *out = (Field){(size_t)number_of(field, 'i', "xres"),
+                 (size_t)number_of(field, 'i', "yres"),
+                 number_of(field, 'd', "xreal"),
+                 number_of(field, 'd', "yreal"),
+                 unit_of(field, "si_unit_xy"),
+                 unit_of(field, "si_unit_z"),
+                 data.value};
+  return (known && out->columns * out->rows == data.count) ||
+         sb_app_error_input(error, "a data field's size is not that of its data");
 }
 
 // Finds "/ID/NAME" in the container.

@@ -17,6 +17,7 @@ typedef struct {
   char *key;     // without blanks: "Z Unit" is "zunit"
   char *value;   // as it is in the file
   double number; // with which the value begins; NaN: none
+  bool times;    // a multiplication sign is before the number, of a factor of the heights
   double unit;   // metres of the one in brackets in the key or after a number; 0: no length; NaN:
                  // the number counts points
   int line;      // from 1
@@ -62,9 +63,12 @@ static void take_entry(GPtrArray *entries, const char *line, int number,
   g_auto(GStrv) words = g_strsplit(entry->name, " ", -1);
   entry->key = g_strjoinv("", words);
   entry->value = g_strstrip(g_strdelimit(g_match_info_fetch(match, 2), ";|", ' '));
-  const gsize end = sb_text_table_number_at(&entry->number, entry->value, dialect->decimal);
+  const gsize sign = strspn(entry->value, "x*\xc3\x97 ");
+  entry->times = sign > 0 && g_regex_match_simple(KEY_HIGH, entry->name, 0, 0);
+  const char *rest = entry->value + (entry->times ? sign : 0);
+  const gsize end = sb_text_table_number_at(&entry->number, rest, dialect->decimal);
   entry->number = end > 0 ? entry->number : NAN;
-  const char *rest = entry->value + end + strspn(entry->value + end, " ");
+  rest += end + strspn(rest + end, " ");
   if (end > 0 && entry->unit == 0) { // "32 px", "32 points"
     const double unit = sb_scan_length(rest);
     entry->unit = unit == 0 && g_ascii_tolower(*rest) == 'p' ? NAN : unit;
@@ -75,11 +79,11 @@ static void take_entry(GPtrArray *entries, const char *line, int number,
 // Returns the first entry that a key matches, an empty one without; of a `length` the first with a
 // unit, else the first number that is not one of points.
 static const Entry *find_entry(const Text *text, const char *key, bool length) {
-  static const Entry none = {(char *)"", (char *)"", (char *)"", NAN, 0, 0};
+  static const Entry none = {(char *)"", (char *)"", (char *)"", .number = NAN};
   const Entry *found = &none;
   for (guint i = 0; i < text->entries->len; i++) {
     const Entry *entry = text->entries->pdata[i];
-    const bool fits = g_regex_match_simple(key, entry->key, 0, 0);
+    const bool fits = !entry->times && g_regex_match_simple(key, entry->key, 0, 0);
     if (fits && (!length || entry->unit > 0)) {
       return entry;
     }
@@ -308,7 +312,8 @@ static bool take_factor(Header *h, SbScan *out, const Text *text, const SbScanCh
       resolution = entry;
     } else if (!g_regex_match_simple(KEY_OTHER, entry->name, 0, 0)) {
       const bool perhaps = g_regex_match_simple(KEY_PERHAPS, entry->name, 0, 0);
-      factor = g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
+      const bool times = entry->times && !perhaps;
+      factor = times || g_regex_match_simple(KEY_FACTOR, entry->name, 0, 0) ? entry : NULL;
       doubt = doubt == NULL && perhaps && (entry->number != 1 || entry->value[1] == '/') ? entry
                                                                                          : doubt;
     }

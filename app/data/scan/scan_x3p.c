@@ -101,16 +101,17 @@ static bool read_main(GHashTable *texts, zip_t *zip, size_t packed, GError **err
   if (xml == NULL) {
     return false;
   }
-  if (size >= 2 && (memcmp(xml, "\xff\xfe", 2) == 0 || memcmp(xml, "\xfe\xff", 2) == 0 ||
-                    memcmp(xml, "<", 2) == 0 || memcmp(xml, "\0<", 2) == 0)) {
-    const char *wide = xml[0] == '\0' ? "UTF-16BE" : xml[1] == '\0' ? "UTF-16LE" : "UTF-16";
+  const bool marked =
+      sb_bytes_begin(xml, size, "\xff\xfe") || sb_bytes_begin(xml, size, "\xfe\xff");
+  if (size >= 2 && (marked || xml[0] == '\0' || xml[1] == '\0')) {
+    const char *wide = marked ? "UTF-16" : xml[0] == '\0' ? "UTF-16BE" : "UTF-16LE";
     g_autofree char *raw = xml;
     xml = g_convert(raw, (gssize)size, "UTF-8", wide, NULL, &size, NULL);
     if (xml == NULL) {
       return sb_app_error_input(error, "main.xml is not sound UTF-16");
     }
   }
-  const size_t mark = g_str_has_prefix(xml, "\xef\xbb\xbf") ? 3 : 0;
+  const size_t mark = sb_bytes_begin(xml, size, "\xef\xbb\xbf") ? 3 : 0;
   g_autoptr(GMarkupParseContext) context =
       g_markup_parse_context_new(&parser, G_MARKUP_TREAT_CDATA_AS_TEXT, texts, NULL);
   g_autoptr(GError) problem = NULL;
@@ -136,6 +137,7 @@ static bool read_step(double *out, GHashTable *texts, char axis, GError **error)
 static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packed, GError **error) {
   static const char types[] = "ILFD", kinds[] = "hifd";
   const char *link = text_of(texts, "record3/datalink/pointdatalink");
+  const char *valid_link = text_of(texts, "record3/datalink/validpointslink");
   const char *feature = text_of(texts, "record1/featuretype"),
              *type = text_of(texts, "record1/axes/cz/datatype");
   const double columns = number(texts, "record3/matrixdimension/sizex", NAN),
@@ -168,17 +170,14 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packe
   size_t got = 0, valid_got = 0;
   g_autofree guchar *data = member(zip, link, &got, 8 * points, packed, error);
   g_autofree guchar *valid = NULL;
-  if (data == NULL) {
-    return false;
-  }
-  if (*text_of(texts, "record3/datalink/validpointslink") != '\0') {
-    valid = member(zip, text_of(texts, "record3/datalink/validpointslink"), &valid_got, points,
-                   packed, error);
-    if (valid == NULL || valid_got < (points + 7) / 8) {
-      return valid != NULL && sb_app_error_input(error, "its valid points are cut short");
+  if (data != NULL && *valid_link != '\0') {
+    valid = member(zip, valid_link, &valid_got, points, packed, error);
+    if (valid != NULL && valid_got < (points + 7) / 8) {
+      return sb_app_error_input(error, "its valid points are cut short");
     }
   }
-  if (!sb_scan_take_grid(out, (size_t)columns, (size_t)rows, kinds[known - types],
+  if (data == NULL || (valid == NULL && *valid_link != '\0') ||
+      !sb_scan_take_grid(out, (size_t)columns, (size_t)rows, kinds[known - types],
                          (SbScanBytes){data, data + got}, step, NAN, error)) {
     return false;
   }
