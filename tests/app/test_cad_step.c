@@ -34,29 +34,33 @@ static const double stem[][3] = {{9.3, 0},
                                  {-0.5, 0}};
 enum { STEM = G_N_ELEMENTS(stem) };
 
+// Its end, of each kind of face one.
+static const double stem_end[][3] = {
+    {9.3, 0}, {9.3, 2.4, 0.41421356237309503}, {8.8, 2.9}, {6.2, 2.9}, {5.2, 1.64}, {5.2, 0}};
+
 static char *folder;
 
-// The stem as a solid of the kernel, revolved about x.
-static int make_stem(void) {
+// Revolves a closed polygon of corners x, r, bulge [mm] about x; returns the tag of the solid.
+static int make_turned(const double (*corner)[3], int corners) {
   int ierr, points[STEM], curves[STEM], wire, face;
-  for (int i = 0; i < STEM; i++) {
-    points[i] = gmshModelOccAddPoint(stem[i][0], stem[i][1], 0, 0, -1, &ierr);
+  for (int i = 0; i < corners; i++) {
+    points[i] = gmshModelOccAddPoint(corner[i][0], corner[i][1], 0, 0, -1, &ierr);
   }
-  for (int i = 0; i < STEM; i++) {
-    const double *p = stem[i], *q = stem[(i + 1) % STEM];
+  for (int i = 0; i < corners; i++) {
+    const double *p = corner[i], *q = corner[(i + 1) % corners];
     const double b = p[2];
     if (b == 0) {
-      curves[i] = gmshModelOccAddLine(points[i], points[(i + 1) % STEM], -1, &ierr);
+      curves[i] = gmshModelOccAddLine(points[i], points[(i + 1) % corners], -1, &ierr);
     } else {
       const double c = (1 - b * b) / (4 * b);
       const int centre =
           gmshModelOccAddPoint((p[0] + q[0]) / 2 - (q[1] - p[1]) * c,
                                (p[1] + q[1]) / 2 + (q[0] - p[0]) * c, 0, 0, -1, &ierr);
-      curves[i] = gmshModelOccAddCircleArc(points[i], centre, points[(i + 1) % STEM], -1, &ierr);
+      curves[i] = gmshModelOccAddCircleArc(points[i], centre, points[(i + 1) % corners], -1, &ierr);
     }
     g_assert_cmpint(ierr, ==, 0);
   }
-  wire = gmshModelOccAddCurveLoop(curves, STEM, -1, &ierr);
+  wire = gmshModelOccAddCurveLoop(curves, (size_t)corners, -1, &ierr);
   face = gmshModelOccAddPlaneSurface(&wire, 1, -1, &ierr);
   int of[2] = {2, face}, *out, tag = -1;
   size_t count;
@@ -68,6 +72,11 @@ static int make_stem(void) {
   gmshFree(out);
   g_assert_cmpint(tag, >, 0);
   return tag;
+}
+
+// The stem as a solid of the kernel, revolved about x.
+static int make_stem(void) {
+  return make_turned(stem, STEM);
 }
 
 typedef struct {
@@ -235,7 +244,7 @@ static void test_port(void) {
 // pi (12 3^2 + 2 1.9^2) = 361.974 mm3, where the kernel computes 364.53.
 static void test_splines(void) {
   begin();
-  int ierr, body[2] = {3, make_stem()};
+  int ierr, body[2] = {3, make_turned(stem_end, G_N_ELEMENTS(stem_end))};
   const Measured kernel = measure(body[1], (const double[]){1, 0, 0});
   gmshModelOccDilate(body, 2, 0, 0, 0, 1, 1, 1 + 1e-7, &ierr);
   g_assert_cmpint(ierr, ==, 0);
@@ -324,7 +333,9 @@ static void test_ball_planes(void) {
   g_assert_nonnull(strstr(error->message, "planes of several directions"));
 }
 
-// Not there, not STEP, cut short, of no solid, and lengths that no double holds.
+// Not there, not STEP, cut short, of no solid, and lengths that no double holds. In slow mode also
+// a body on whose meshes the kernel spends its limit of processor time: its numbers come with a
+// note.
 static void test_broken(void) {
   begin();
   make_stem();
@@ -336,7 +347,7 @@ static void test_broken(void) {
   g_assert_true(g_file_get_contents(whole, &text, &length, NULL));
   g_autofree char *path = g_build_filename(folder, "broken.step", NULL);
   const SbCadChoices none = {0};
-  for (int kind = 0; kind < 6; kind++) {
+  for (int kind = 0; kind < (g_test_slow() ? 7 : 6); kind++) {
     GString *bad = g_string_new_len(text, (gssize)(kind == 1 ? length / 3 : length));
     if (kind == 0) {
       g_string_assign(bad, "PNG\n");
@@ -345,10 +356,12 @@ static void test_broken(void) {
     } else if (kind == 3) {
       g_string_replace(bad, "CARTESIAN_POINT('',(", "CARTESIAN_POINT('',(1.E999", 0);
     } else if (kind == 4) {
-      // Every reference to the entity that refers to it.
-      g_string_replace(bad, "#2", "#17", 0);
+      // References and entities of the same number.
+      g_string_replace(bad, "#2", "#20", 0);
     } else if (kind == 5) {
       g_string_replace(bad, "ADVANCED_FACE", "ADVANCED_FAKE", 0);
+    } else if (kind == 6) {
+      g_string_replace(bad, "#2", "#17", 0);
     }
     g_assert_true(g_file_set_contents(path, bad->str, (gssize)bad->len, NULL));
     g_string_free(bad, TRUE);
@@ -356,7 +369,7 @@ static void test_broken(void) {
     const gint64 start = g_get_monotonic_time();
     SbCad *read = sb_cad_read(path, &none, &error);
     g_assert_cmpint(g_get_monotonic_time() - start, <, 130 * G_USEC_PER_SEC);
-    g_test_message("%s", read != NULL ? "read" : error->message);
+    g_test_message("%d: %s", kind, read != NULL ? "read" : error->message);
     // Either complete or refused, naming the file.
     if (read == NULL) {
       g_assert_error(error, SB_APP_ERROR, SB_APP_ERROR_INPUT);
@@ -364,8 +377,10 @@ static void test_broken(void) {
       g_error_free(error);
     } else {
       g_assert_cmpint(kind, >=, 3);
+      g_assert_true(kind != 6 || read->warnings->len > 0);
       sb_cad_free(read);
     }
+    g_assert_true(kind != 6 || read != NULL);
   }
   GError *error = NULL;
   g_remove(path);

@@ -241,17 +241,19 @@ static void test_row_is_run(void) {
   g_autofree char *study = path_of("row.study"), *store = path_of("row.store");
   g_autofree char *text =
       g_strdup_printf("[sealbench]\nformat = 1\nkind = study\nscene = %s\n[vary]\n"
-                      "seal.modulus = levels 2.7 MPa, 5.2 MPa\n[study]\nmethod = grid\n"
+                      "seal.modulus = levels 2.7 MPa, 5.2 MPa\noutput.tolerance = levels 0.01\n"
+                      "[study]\nmethod = grid\n"
                       "figures = seals.inner.load_N, cycle.force_return_margin_N\n",
                       scene);
   g_assert_true(g_file_set_contents(study, text, -1, NULL));
   CliResult rows = CLI("study", study, "-o", store, "-q", "--csv", "-");
   g_assert_cmpint(rows.code, ==, 0);
-  CliResult run = CLI("run", scene, "-q", "--set", "seal.modulus=5.2MPa", "--json", "-");
+  CliResult run = CLI("run", scene, "-q", "--set", "seal.modulus=5.2MPa", "--set",
+                      "output.tolerance=0.01", "--json", "-");
   g_assert_cmpint(run.code, ==, 0);
   g_autoptr(JsonNode) root = cli_parse(run.out);
-  g_assert_cmpfloat(value_of(rows.out, 2, 2), ==, cli_number(root, "seals.inner.load_N"));
-  g_assert_cmpfloat(value_of(rows.out, 2, 3), ==, cli_number(root, "cycle.force_return_margin_N"));
+  g_assert_cmpfloat(value_of(rows.out, 2, 3), ==, cli_number(root, "seals.inner.load_N"));
+  g_assert_cmpfloat(value_of(rows.out, 2, 4), ==, cli_number(root, "cycle.force_return_margin_N"));
   cli_clear(&rows);
   cli_clear(&run);
   g_unlink(store);

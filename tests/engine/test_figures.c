@@ -377,6 +377,8 @@ static void test_stuck_without_cycle(void) {
 static void test_open_leakage(void) {
   const Setting changes[] = {{SB_P_VALVE_KIND, SB_VALVE_GASKET},
                              {SB_P_GASKET_CRIMP, 0},
+                             // Nearly as wide as the stem: its first contact takes few steps.
+                             {SB_P_GASKET_BORE_DIAMETER, 3.25e-3},
                              {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC}};
   SbModel model;
   compile(&model, changes, G_N_ELEMENTS(changes));

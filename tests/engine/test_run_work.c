@@ -89,8 +89,8 @@ static void ends(void) {
 // Rings of both seals on threads of their own end as they do one after the other; both are at work
 // at this limit. That whole runs count equal work is a test of run-ring.
 static void threads(void) {
-  Outcome one = execute(RINGS, 2, 200, true);
-  Outcome both = execute(RINGS, 2, 200, false);
+  Outcome one = execute(RINGS, 2, 60, true);
+  Outcome both = execute(RINGS, 2, 60, false);
   g_assert_cmpint(one.status, ==, SB_ERROR_NOT_CONVERGED);
   g_assert_cmpint(one.status, ==, both.status);
   g_assert_cmpstr(one.report.text, ==, both.report.text);

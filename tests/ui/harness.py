@@ -3,6 +3,7 @@
 Each test is one process under `dbus-run-session -- xvfb-run -a`. `start()` runs the program with a
 configuration folder of its own; everything is looked up by role and name in the accessibility tree.
 """
+import functools
 import json
 import os
 import re
@@ -317,12 +318,12 @@ def scene(folder, **values):
     return path
 
 
-def least_of(test, runs, *window):
+def least_of(test, runs):
     """Runs a test, again where only a limit of time is missed: the least of some runs counts."""
     for left in reversed(range(runs)):
         try:
             with tempfile.TemporaryDirectory() as folder:
-                return test(*window, folder)
+                return test(folder)
         except Slow as slow:
             print("# %s" % slow)
             if left == 0:
@@ -331,19 +332,20 @@ def least_of(test, runs, *window):
 
 class Shared:
     """A window on the shipped scene for tests that run one after the other in it, since its start takes
-    seconds. Each leaves it as the next expects it; one that fails leaves the next a new window."""
+    seconds. Each leaves it as the next expects it; one that fails, or is too slow and runs again, is followed
+    by a new window."""
 
     def __init__(self, *tests):
         self.tests = tests
         self.app = None
 
-    def run(self, test):
+    def run(self, test, folder):
         if self.app is None:
             self.folder = tempfile.TemporaryDirectory()
             self.app = App(scene(self.folder.name))
             wait("the first run", self.app.run_done)
         try:
-            least_of(test, 3, self.app)
+            test(self.app, folder)
         except Exception:
             self.close()
             raise
@@ -373,10 +375,7 @@ def main(*entries):
     for number, test in enumerate(tests, 1):
         start, window = time.monotonic(), window_of.get(test)
         try:
-            if window is None:
-                least_of(test, 3)
-            else:
-                window.run(test)
+            least_of(test if window is None else functools.partial(window.run, test), 3)
             print("ok %d - %s" % (number, test.__name__))
             print("# %.1f s" % (time.monotonic() - start), flush=True)
         except Exception:
