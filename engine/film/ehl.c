@@ -266,6 +266,39 @@ static void distrust(SbFilmSolver *solver) {
   solver->info->error_contact *= UNSEEN;
 }
 
+// How a case climbs its levels from a cold start.
+typedef struct {
+  bool rough;  // rows
+  bool saves;  // may begin with large elements
+  bool coarse; // has large elements
+  int last;    // degree of the finest mesh
+  int degree;  // of the present one
+} Climb;
+
+// After a level that failed with `status`, above *levels others: begins again on meshes of other
+// degrees or elements. Returns false if there are none left, and changes nothing.
+static bool begin_again(Climb *at, int *levels, SbStatus status) {
+  const bool lost = status == SB_ERROR_NOT_CONVERGED;
+  const bool thin = status == SB_ERROR_RANGE && at->rough && !at->coarse;
+  if (lost && !at->rough && *levels <= 1 && at->degree < at->last) {
+    // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
+    at->degree += 2;
+  } else if (*levels < 2 && ((lost && at->saves) || thin)) {
+    // Elements so large that a meniscus has no node near it, or layers so thin that their elements
+    // leave no room for a second level.
+    at->saves = at->saves && thin;
+    at->coarse = thin;
+    at->degree = DEGREE_FIRST;
+  } else if (lost && at->rough && *levels < 2 && at->degree < at->last) {
+    // By chance a front meets a node where it cannot pass: with other nodes from nothing.
+    at->degree += *levels == 0 ? 1 : -1;
+  } else {
+    return false;
+  }
+  *levels = 0;
+  return true;
+}
+
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
 static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
                       const SbEhlCase *cold, double supply) {
@@ -273,33 +306,19 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   const bool rough = cold->rough.rows;
   const double wanted = solver->problem->tolerance;
   const int least = rough || wanted >= 5e-3 ? 2 : 3;
-  *levels = 0;
-  const int last = rough ? DEGREE_LAST_ROUGH : DEGREE_LAST;
   // Coarse elements leave 1e-8 to 5e-6 of a film, fine ones a hundredth of that.
   static const double ENOUGH = 5e-3;
-  bool saves = rough && wanted >= ENOUGH, coarse = saves;
-  for (int degree = DEGREE_FIRST; degree <= last;) {
+  const bool saves = rough && wanted >= ENOUGH;
+  Climb at = {rough, saves, saves, rough ? DEGREE_LAST_ROUGH : DEGREE_LAST, DEGREE_FIRST};
+  *levels = 0;
+  while (at.degree <= at.last) {
     SbEhlCase c = *cold;
-    c.layers.degree = degree;
-    c.rough.coarse = coarse;
+    c.layers.degree = at.degree;
+    c.rough.coarse = at.coarse;
     solver->tolerance = *levels + 1 < least ? LEVEL_RESIDUAL[*levels] : RESIDUAL;
     bool again;
     const SbStatus status = solve_level(&again, solver, &c, *levels, supply);
-    if (status == SB_ERROR_NOT_CONVERGED && !rough && *levels <= 1 && degree < last) {
-      // So coarse a mesh may hide the load in its own errors: on a finer one from nothing.
-      *levels = 0;
-      degree += 2;
-      continue;
-    }
-    // Elements so large that a meniscus has no node near it, or layers so thin that their elements
-    // leave no room for a second level.
-    const bool large = status == SB_ERROR_NOT_CONVERGED && *levels < 2 && saves;
-    const bool thin = status == SB_ERROR_RANGE && *levels < 2 && rough && !coarse;
-    if (large || thin) {
-      saves = saves && !large;
-      coarse = thin;
-      *levels = 0;
-      degree = DEGREE_FIRST;
+    if (begin_again(&at, levels, status)) {
       continue;
     }
     if (status == SB_ERROR_RANGE) {
@@ -316,10 +335,10 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
       return status;
     }
     add_level(results, change, levels, solver, supply, !again);
-    if (*levels >= least && degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
+    if (*levels >= least && at.degree > DEGREE_FIRST && worst(solver) <= 0.1 * wanted) {
       break;
     }
-    degree += 2;
+    at.degree += 2;
   }
   // A single level has no error estimate; rough rows may be better than one level of smooth ones.
   return *levels > 1 || rough ? SB_OK : SB_ERROR_NOT_CONVERGED;

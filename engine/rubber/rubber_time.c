@@ -79,6 +79,17 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
 // with 20 % of swell has 0.4 (thesis 2.2.6).
 static const double SWOLLEN_MIN = 0.05;
 
+static SbStatus check_swollen(const SbRubber *r, SbReport *report) {
+  if (r->swell_modulus > 0.0 && r->swell_modulus < SWOLLEN_MIN) {
+    return sb_fail_input(
+        report, SB_ERROR_RANGE, SB_RUBBER_IN_SWELL_MODULUS,
+        "a swollen modulus of %g times the dry one: at least %g, or 0 for an ideal "
+        "network",
+        r->swell_modulus, SWOLLEN_MIN);
+  }
+  return SB_OK;
+}
+
 static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *report) {
   // Densities matter for a rubber that swells only.
   const double least = r->swell_mass > 0.0 ? DBL_MIN : 0.0;
@@ -119,13 +130,6 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
                          "%zu Prony terms with fractions that sum to %g (at most %d, below 1)",
                          r->terms, sum, SB_RUBBER_TERMS);
   }
-  if (r->swell_modulus > 0.0 && r->swell_modulus < SWOLLEN_MIN) {
-    return sb_fail_input(
-        report, SB_ERROR_RANGE, SB_RUBBER_IN_SWELL_MODULUS,
-        "a swollen modulus of %g times the dry one: at least %g, or 0 for an ideal "
-        "network",
-        r->swell_modulus, SWOLLEN_MIN);
-  }
   if (in->use_temperature < r->glass_temperature) {
     return sb_fail_input(report, SB_ERROR_RANGE, SB_RUBBER_IN_USE_TEMPERATURE,
                          "%.4g °C is below the rubber's glass transition at %.4g °C: there it "
@@ -138,7 +142,7 @@ static SbStatus check(const SbRubber *r, const SbRubberStorage *in, SbReport *re
                          "%.4g K is at or below the pole of the WLF shift at %.4g K",
                          in->temperature, r->reference_temperature - r->wlf_c2);
   }
-  return SB_OK;
+  return check_swollen(r, report);
 }
 
 // Share of the network below which the rubber is a liquid, not a seal.

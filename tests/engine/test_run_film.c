@@ -189,10 +189,54 @@ static void test_sharpened(void) {
   sb_run_destroy(run);
 }
 
+// A steady film between asperities that has no solution on the first mesh, where a front meets a
+// node, and one on the next. Random valve 26 of seed 301.
+static void test_other_mesh(void) {
+  const Setting settings[] = {{SB_P_OUTPUT_FRAMES, 50},
+                              {SB_P_BORE_DIAMETER, 0.008342418460048115},
+                              {SB_P_BORE_LAND_EDGE, 0.008848305564618944},
+                              {SB_P_GLAND_RADIAL_SPACE, 0.001337911841592757},
+                              {SB_P_GLAND_AXIAL_WIDTH, 0.0032011751567438034},
+                              {SB_P_SEAL_SECTION_DIAMETER, 0.0018686545315845556},
+                              {SB_P_SEAL_INNER_DIAMETER, 0.004741791187051871},
+                              {SB_P_SEAL_MODULUS, 5810188.9754753085},
+                              {SB_P_SEAL_POISSON_RATIO, 0.4826837896527088},
+                              {SB_P_STEM_PRESSURE_DIAMETER, 0.00823203713514696},
+                              {SB_P_STEM_SEAL_SPACING, 0.007875590636897193},
+                              {SB_P_STEM_MASS, 0.0008267477085268499},
+                              {SB_P_DRIVE_STROKE, 0.009088285036052426},
+                              {SB_P_DRIVE_SPEED, 6.78477367800049e-05},
+                              {SB_P_DRIVE_STIFFNESS, 1534.865639501514},
+                              {SB_P_DRIVE_REVERSAL_FORCE, 23.310824728279997},
+                              {SB_P_DRIVE_REST, 5.128450753416541},
+                              {SB_P_CANISTER_PRESSURE, 795259.5045538165},
+                              {SB_P_CANISTER_PRESSURE_MAP, 0},
+                              {SB_P_FLUID_VISCOSITY, 0.00020409176471338094},
+                              {SB_P_FLUID_DENSITY, 846.468266044204},
+                              {SB_P_SURFACE_SIGMA, 3.067383167657721e-08},
+                              {SB_P_SURFACE_SIGMA_OVER_BETA, 0.04011620259853719},
+                              {SB_P_SURFACE_GT_PRODUCT, 0.0469639033099018},
+                              {SB_P_FRICTION_SHEAR_STRENGTH, 1115447.9238595548},
+                              {SB_P_FRICTION_LOAD_COEFFICIENT, 0.08812128571240381},
+                              {SB_P_FRICTION_STATIC_RATIO, 1.2607318683878046},
+                              {SB_P_MODELS_FIT, 0},
+                              {SB_P_MODELS_FILM, 3},
+                              {SB_P_MODELS_SURFACE, 0},
+                              {SB_P_MODELS_ASPERITIES, 1},
+                              {SB_P_MODELS_MOTION, 0},
+                              {SB_P_MODELS_VISCOSITY, 0}};
+  SbModel model;
+  compile(&model, settings, G_N_ELEMENTS(settings));
+  SbRun *run = run_of(&model, SB_OK, NULL);
+  g_assert_true(sb_run_summary(run)->converged);
+  sb_run_destroy(run);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-film/frames", test_frames);
   g_test_add_func("/run-film/thinned", test_thinned);
   g_test_add_func("/run-film/sharpened", test_sharpened);
+  g_test_add_func("/run-film/other-mesh", test_other_mesh);
   return g_test_run();
 }

@@ -94,8 +94,7 @@ static SbStatus begin_stretch(History *history, int chamber, const SbRunHooks *h
   }
   problem.film.cancelled = sb_work_step;
   problem.film.cancelled_data = run->work;
-  problem.film.tolerance =
-      fmax(run->model->tolerance, COARSEST) * pow(SHARPER, history->sharper);
+  problem.film.tolerance = fmax(run->model->tolerance, COARSEST) * pow(SHARPER, history->sharper);
   history->chamber = chamber;
   SbStatus status = sb_film_transient_create(&history->film, &problem, report);
   const bool tips = problem.film.work_of_adhesion > 0;
@@ -138,6 +137,17 @@ static int way_of(const History *history, size_t i, size_t count) {
   return history->direction < 0 ? SB_CYCLE_IN : history->direction;
 }
 
+// Notes what a stretch begins with at frame i, unless it is followed again.
+static void remember_begin(History *history, size_t i, double error, int direction) {
+  if (i != history->begin || history->finer + history->sharper == 0) {
+    history->finer = history->sharper = 0;
+    history->begin = i;
+    history->begin_central = history->central;
+    history->begin_error = error;
+    history->begin_direction = direction;
+  }
+}
+
 // Ends a stretch that is to be followed again, and goes back to its first frame, which is returned.
 static size_t go_back(History *history) {
   end_stretch(history);
@@ -175,13 +185,7 @@ static SbStatus replay(History *history, size_t count, const SbRunHooks *hooks, 
     }
     SbStatus status = SB_OK;
     if (history->film == NULL) {
-      if (i != history->begin || history->finer + history->sharper == 0) {
-        history->finer = history->sharper = 0;
-        history->begin = i;
-        history->begin_central = history->central;
-        history->begin_error = error;
-        history->begin_direction = before;
-      }
+      remember_begin(history, i, error, before);
       status = begin_stretch(history, frame->chamber, hooks, report);
     } else if (dt > 0) {
       status = sb_film_transient_step(history->film, dt, sb_model_way(run->model) * frame->velocity,
