@@ -80,7 +80,7 @@ double sb_rubber_viscoelastic_set(const double *g, const double *tau, size_t ter
 static const double SWOLLEN_MIN = 0.05;
 
 static SbStatus check_swollen(const SbRubber *r, SbReport *report) {
-  if (r->swell_modulus > 0.0 && r->swell_modulus < SWOLLEN_MIN) {
+  if (r->swell_mass > 0.0 && r->swell_modulus > 0.0 && r->swell_modulus < SWOLLEN_MIN) {
     return sb_fail_input(
         report, SB_ERROR_RANGE, SB_RUBBER_IN_SWELL_MODULUS,
         "a swollen modulus of %g times the dry one: at least %g, or 0 for an ideal "
@@ -231,8 +231,9 @@ static void swell(SbRubberState *out, const SbRubber *r, const SbRubberStorage *
       r->swell_mass > 0.0 ? r->swell_mass * r->rubber_density / r->fluid_density : 0.0;
   out->volume_swell = out->uptake * full;
   out->linear_swell = cbrt(1.0 + out->volume_swell) - 1.0;
-  out->swell_modulus = r->swell_modulus > 0.0 ? pow(r->swell_modulus, out->uptake)
-                                              : 1.0 / cbrt(1.0 + out->volume_swell);
+  out->swell_modulus = r->swell_mass > 0.0 && r->swell_modulus > 0.0
+                           ? pow(r->swell_modulus, out->uptake)
+                           : 1.0 / cbrt(1.0 + out->volume_swell);
   if (out->volume_swell > 0.5) {
     sb_warn(warnings, "swell-large", SB_RUBBER_IN_SWELL,
             "swell of %.0f %% by volume: diffusion and elasticity are no longer linear",

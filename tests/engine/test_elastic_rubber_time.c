@@ -322,6 +322,10 @@ static void test_swell(void) {
   s = state(&rubber, &in);
   assert_close(s.uptake, sb_rubber_uptake(0.1), 1e-12);
   assert_close(s.swell_modulus, pow(0.4, s.uptake), 1e-12);
+  // A rubber that takes up nothing stays as stiff.
+  SbRubber dry = rubber;
+  dry.swell_mass = 0.0;
+  assert_close(state(&dry, &in).swell_modulus, 1.0, 1e-15);
   // A gel is no seal.
   SbReport report;
   rubber.swell_modulus = 0.02;
