@@ -236,6 +236,8 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   }
   sb_ring_result(ring, result);
   if (!result->touching) {
+    // A load of 0 needs no finer mesh: the state of the path's mesh is the result.
+    status = status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
     sb_warn_serious(
         warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
         "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm",
