@@ -223,6 +223,20 @@ static void lifted(void) {
   }
 }
 
+// A stem thinner than the clamped gasket's bore: without contact, and the message names both.
+static void apart(void) {
+  const SbRingBody body = body_of(0.1e-3);
+  SbRingLoad load = load_of(0.1, 0);
+  SbRingResult result;
+  SbWarnings warnings = {0};
+  load.bore_radius = -1e-3;
+  g_assert_cmpint(sb_ring_fit(NULL, &result, &body, &load, NULL, &warnings, NULL), ==, SB_OK);
+  g_assert_false(result.touching);
+  g_assert_cmpuint(warnings.count, ==, 1);
+  g_assert_cmpstr(warnings.item[0].code, ==, "no-contact");
+  g_assert_nonnull(strstr(warnings.item[0].text, "2.7 mm wide, the stem 2 mm"));
+}
+
 static void refusals(void) {
   SbRingBody body = body_of(0.015e-3);
   SbRingLoad load = load_of(0, 0);
@@ -245,6 +259,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/ring-gasket/sliding", sliding);
   g_test_add_func("/ring-gasket/crests", crests);
   g_test_add_func("/ring-gasket/lifted", lifted);
+  g_test_add_func("/ring-gasket/apart", apart);
   g_test_add_func("/ring-gasket/refusals", refusals);
   return g_test_run();
 }
