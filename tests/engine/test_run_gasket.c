@@ -2,7 +2,7 @@
 // crimp and port the way a valve's do.
 #include "engine/valve/figures/figures.h"
 #include "engine/valve/run/cycle.h"
-#include "engine/valve/states/sliding.h"
+#include "engine/valve/states/sliding_private.h"
 #include "engine/valve/studies/hold.h"
 #include "tests/engine/models.h"
 #include "tests/executed.h"
@@ -73,6 +73,43 @@ static void peak(void) {
   g_test_message("%.6g MPa, error %.3g of %.3g", 1e-6 * state.pressure_peak, state.peak_error, off);
   g_assert_cmpfloat(off, <=, 3 * state.peak_error);
   g_assert_cmpfloat(state.peak_error, <, 0.1);
+}
+
+// The drag of a sliding section is that of its own film to the tolerance, and may be larger. It
+// enlarges the friction; no more than the whole contact is in real contact. A smaller drag reduces
+// both.
+static void shared_out(void) {
+  static const double borne[] = {1.003, 0.997};
+  SbModel *model = gasket_model(NULL, 0);
+  SbSlidingMemory *memory;
+  SbCounters counts = {0};
+  g_assert_cmpint(sb_sliding_memory_create(&memory, NULL), ==, SB_OK);
+  for (int i = 0; i < 2; i++) {
+    const SbSlidingTask task = {.model = model,
+                                .seal = SB_OUTER,
+                                .speed = model->speed,
+                                .memory = memory,
+                                .counts = &counts};
+    SbSealState state = {.section = SB_RING_SLIDES,
+                         .contact_right = 0.5e-3,
+                         .load = 10,
+                         .load_per_length = 1e3,
+                         .load_net = 1e3,
+                         .pressure_peak = 4e6,
+                         .film_central = 1e-9,
+                         .real_area_share = 1,
+                         .rest_area_share = 1,
+                         .boundary_area = 2,
+                         .rest_area = 2,
+                         .area_cut = 1,
+                         .borne_share = borne[i]};
+    g_assert_cmpint(sb_sliding_share_out(&state, &task, NULL), ==, SB_OK);
+    g_assert_cmpfloat(state.real_area_share, ==, fmin(borne[i], 1));
+    g_assert_cmpfloat(state.rest_area_share, ==, 1);
+    g_assert_cmpfloat_with_epsilon(state.boundary_area, 2 * borne[i], 1e-12);
+  }
+  sb_sliding_memory_destroy(memory);
+  sb_model_destroy(model);
 }
 
 // A smaller tolerance has a finer mesh, so that its change is the error of the mesh: it is at most
@@ -346,6 +383,7 @@ static void hard(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-gasket/peak", peak);
+  g_test_add_func("/run-gasket/shared-out", shared_out);
   g_test_add_func("/run-gasket/mesh", mesh);
   g_test_add_func("/run-gasket/hard", hard);
   g_test_add_func("/run-gasket/cycle", cycle);

@@ -286,8 +286,8 @@ typedef struct {
 void sb_ring_section_sizes(const SbRing *ring, int *nodes, int *elements, int *sides);
 
 // Fills the arrays of *out. Open sides left of the pressure maxima of bore and floor contact belong
-// to the left fluid. Contacts end where their recovered pressures end; the nearest vertices are
-// moved there.
+// to the left fluid (of bore and wall contact if the ring has left the floor under pressure).
+// Contacts end where their recovered pressures end; the nearest vertices are moved there.
 void sb_ring_section(const SbRing *ring, const SbRingSection *out);
 
 // Writes the bore contact's surface for film solvers (compliance.h) to *out: the half-plane with

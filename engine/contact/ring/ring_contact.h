@@ -49,7 +49,8 @@ typedef struct {
 typedef struct {
   SbRingLoad now; // present load, set once per load step
   double turn;    // rotation of the section since it was free, from +r to +z, unwrapped [rad]
-  int crest[2];   // boundary nodes of bore and floor that separate the left from the right fluid
+  int crest[2];   // boundary nodes that separate the left from the right fluid: of the bore; of the
+                  // floor, or of a wall if the ring has left the floor or has none
   double excess;  // lobed section: largest bore pressure minus the fluid's at the start of the last
                   // solve; else infinite
   SbRingTouch *touch; // [count][SB_RING_SURFACES] contact pairs

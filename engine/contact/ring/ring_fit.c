@@ -203,6 +203,23 @@ static SbStatus fit_contact(SbRing *ring, SbRingResult *result, const SbRingResu
   return status;
 }
 
+static void warn_no_contact(const SbRingBody *body, const SbRingLoad *load,
+                            const SbRingResult *result, SbWarnings *warnings) {
+  const bool fluid = load->pressure_left != 0.0 || load->pressure_right != 0.0;
+  const char *past = fluid ? " and lets the fluid past" : "";
+  if (body->inward) {
+    sb_warn_serious(warnings, "no-contact", SB_CONTACT_IN_GASKET_BORE,
+                    "the clamped gasket has no contact with the stem%s: its free bore is %.4g mm "
+                    "wide, the stem %.4g mm",
+                    past, 1e3 * body->inner_diameter, 2e3 * fabs(load->bore_radius));
+    return;
+  }
+  sb_warn_serious(
+      warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
+      "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm", past,
+      1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));
+}
+
 SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
                      const SbRingLoad *load, const SbRingOptions *options, SbWarnings *warnings,
                      SbReport *report) {
@@ -236,11 +253,9 @@ SbStatus sb_ring_fit(SbRing **out, SbRingResult *result, const SbRingBody *body,
   }
   sb_ring_result(ring, result);
   if (!result->touching) {
-    sb_warn_serious(
-        warnings, "no-contact", SB_CONTACT_IN_BORE_DIAMETER,
-        "the fitted ring has no contact with the bore%s: radial thickness %.4g mm in %.4g mm",
-        load->pressure_left != 0.0 || load->pressure_right != 0.0 ? " and lets the fluid past" : "",
-        1e3 * result->thickness, 1e3 * (load->bore_radius - load->floor_radius));
+    // A load of 0 needs no finer mesh: the state of the path's mesh is the result.
+    status = status == SB_ERROR_NOT_CONVERGED ? SB_OK : status;
+    warn_no_contact(body, load, result, warnings);
   } else {
     status =
         fit_contact(ring, result, &path_end, status, size, wanted, tolerance, warnings, report);

@@ -2,10 +2,11 @@
 //
 // Three-point Gauss rule, exact for quadratic sides: f = -int N p n dA, n and dA of the deformed
 // side. The left pressure acts up to the crests of bore and floor contact, the right pressure
-// beyond. Behind a ring that seals inwards the lower of both acts, from the crest at the wall of
-// the higher one. A side is closed if all three of its nodes are in contact with a surface; the
-// pressure that the fluid would exert there is stored as the part that the contact must exceed. Not
-// modelled: flow and pressure drop.
+// beyond. Under a ring that has left the floor the higher of both acts, up to the crest at the wall
+// of the lower one, if that wall supports the ring. Behind a ring that seals inwards the lower of
+// both acts, from the crest at the wall of the higher one. A side is closed if all three of its
+// nodes are in contact with a surface; the pressure that the fluid would exert there is stored as
+// the part that the contact must exceed. Not modelled: flow and pressure drop.
 #include "engine/contact/ring/ring_contact.h"
 
 #include <math.h>
@@ -212,14 +213,34 @@ bool sb_ring_contact_on_right(const SbRingContact *contact, int side) {
   return (middle > bore && middle < past) || (middle + count > bore && middle + count < past);
 }
 
+static bool touches(const SbRingContact *contact, SbRingSurface surface) {
+  for (int i = 0; i < contact->count; i++) {
+    if (sb_ring_touch(contact, i, surface)->held) {
+      return true;
+    }
+  }
+  return false;
+}
+
+// Returns the vertex that separates the fluids on the other side than the bore: at the floor, or at
+// the wall of the lower pressure if a ring has left the floor and is supported there. A ring that
+// seals inwards has no floor: at the wall of the higher pressure.
+static int inner_crest(const SbRingContact *contact) {
+  const SbRingLoad *now = &contact->is.now;
+  const bool left = now->pressure_left > now->pressure_right;
+  const bool inward = contact->fem->around < 0.0;
+  const SbRingSurface wall = inward == left ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT;
+  const bool lifted = now->pressure_left != now->pressure_right &&
+                      !touches(contact, SB_RING_FLOOR) && touches(contact, wall);
+  return inward || lifted
+             ? first_crest(contact, wall, wall == SB_RING_WALL_LEFT ? -0.5 * M_PI : 0.5 * M_PI)
+             : first_crest(contact, SB_RING_FLOOR, -M_PI);
+}
+
 void sb_ring_contact_load_fluid(SbRingContact *contact) {
   if (!contact->settled) {
     contact->is.crest[0] = first_crest(contact, SB_RING_BORE, 0.0);
-    const SbRingLoad *now = &contact->is.now;
-    contact->is.crest[1] = contact->fem->around >= 0.0 ? first_crest(contact, SB_RING_FLOOR, -M_PI)
-                           : now->pressure_left > now->pressure_right
-                               ? first_crest(contact, SB_RING_WALL_LEFT, -0.5 * M_PI)
-                               : first_crest(contact, SB_RING_WALL_RIGHT, 0.5 * M_PI);
+    contact->is.crest[1] = inner_crest(contact);
   }
   const int count = contact->count;
   memset(contact->share, 0, 8 * sizeof(double) * (size_t)count); // and what follows it

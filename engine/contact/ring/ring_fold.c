@@ -24,6 +24,10 @@ static const double STIFFNESS = 1000.0;
 // behind a piece; smallest degree to which the two sides face each other.
 static const double HOLLOW = 1e-3, BEHIND = 0.12, FACES = 0.2;
 
+// Distance of a node behind a piece in the free section from which on it is the opposite surface of
+// the piece's own flange or lip, in section heights: more than a state may penetrate itself.
+static const double THROUGH = 0.03;
+
 // Nodes adjacent to a hollow, at either end, that may come into it, and nodes along the boundary
 // that belong to a node's own side.
 enum { BESIDE = 6, OWN = 1 };
@@ -147,6 +151,14 @@ static double outside_of(const Piece *p, const double x[2], double *along) {
   return p->n[0] * d[0] + p->n[1] * d[1];
 }
 
+// Returns whether node i is behind the piece from node k on through the material of the free
+// section.
+static bool through_material(const SbRingContact *contact, int i, int k) {
+  const SbRingMesh *mesh = contact->fem->mesh;
+  const double *a = free_place(mesh, k), *b = free_place(mesh, sb_ring_wrap(contact, k + 1));
+  return turn(a, b, free_place(mesh, i)) > THROUGH * hypot(b[0] - a[0], b[1] - a[1]);
+}
+
 // The piece or corner that node i is behind, nearest to it; false if there is none.
 static bool find(Fold *out, const SbRingContact *contact, int i) {
   const SbRingFem *fem = contact->fem;
@@ -179,7 +191,8 @@ static bool find(Fold *out, const SbRingContact *contact, int i) {
       }
     }
     if (gap < 0.0 && gap > -BEHIND && along >= 0.0 && along <= 1.0 &&
-        p.n[0] * face[0] + p.n[1] * face[1] < -FACES && (!found || gap > out->gap)) {
+        p.n[0] * face[0] + p.n[1] * face[1] < -FACES && (!found || gap > out->gap) &&
+        !through_material(contact, i, k)) {
       *out = (Fold){.node = fem->mesh->loop[i],
                     .from = fem->mesh->loop[k],
                     .to = fem->mesh->loop[to],

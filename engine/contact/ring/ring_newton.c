@@ -94,8 +94,9 @@ static bool recentre(SbRingFem *fem, double force_scale) {
 }
 
 // Reports where the contact did not settle.
-static void fail(const SbRingContact *contact, double residual, int changes, int iterations,
+static void fail(const SbRing *ring, double residual, int changes, int iterations,
                  SbReport *report) {
+  const SbRingContact *contact = ring->contact;
   if (contact->unsteady < 0 || changes == 0) {
     (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
                   "no balance of forces (residual %.2g) after %d iterations", residual, iterations);
@@ -104,11 +105,19 @@ static void fail(const SbRingContact *contact, double residual, int changes, int
   double x[2];
   sb_ring_contact_place(contact, contact->unsteady / SB_RING_SURFACES, x);
   SbRingSurface surface = (SbRingSurface)(contact->unsteady % SB_RING_SURFACES);
-  bool wall = surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT;
+  const SbRingLoad *now = &contact->is.now;
+  const bool wall = surface == SB_RING_WALL_RIGHT || surface == SB_RING_WALL_LEFT;
+  const bool inward = ring->body.inward; // it has no floor, and its radii are negative
   (void)sb_fail(report, SB_ERROR_NOT_CONVERGED,
                 "the contact at the %s does not settle %.2f section diameters %s (residual %.2g)",
-                sb_ring_surface_name(surface), wall ? x[0] - contact->is.now.floor_radius : x[1],
-                wall ? "above the floor" : "from its middle", residual);
+                sb_ring_surface_name(surface),
+                !wall    ? x[1]
+                : inward ? now->bore_radius - x[0]
+                         : x[0] - now->floor_radius,
+                !wall    ? "from its middle"
+                : inward ? "from the stem"
+                         : "above the floor",
+                residual);
 }
 
 // Returns the distance of the state from its position on the path; 0 if the friction factor is
@@ -242,7 +251,7 @@ SbStatus sb_ring_newton(SbRing *ring, SbRingPath path, SbReport *report) {
                  (path == SB_RING_DIRECT && it >= FAR_AFTER && residual > FAR);
     if (spent || stumbles > STUMBLES_MAX || repeats > REPEATS_MAX ||
         (rounds > ROUND_MAX && !ring->damped) || !isfinite(residual)) {
-      fail(contact, residual, changes, it, report);
+      fail(ring, residual, changes, it, report);
       if (report != NULL) {
         report->residual = residual;
         report->iteration = it;

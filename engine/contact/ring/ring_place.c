@@ -239,6 +239,24 @@ static SbStatus tell_passed(const SbRing *ring, const SbRingLoad *load, SbStatus
   return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
 }
 
+// Reports that the fluid passes a clamped ring that has lost the stem: it was in contact before the
+// fluid came, and a load step has led past the fold to a state without contact. The fluid then has
+// no seal between its sides, so that this state is not one of the ring.
+static SbStatus fail_if_lifted(const SbRing *ring, SbReport *report) {
+  const SbRingLoad *now = &ring->contact->is.now;
+  const double wanted = fmax(now->pressure_left, now->pressure_right);
+  SbRingPatch patch;
+  if (!ring->body.inward || now->pressure_left == now->pressure_right ||
+      sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+    return SB_OK;
+  }
+  const SbStatus status = sb_fail_input(
+      report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CRIMP,
+      "the fluid passes the gasket along the stem: %.3g MPa lifts the gasket off the stem",
+      1e-6 * wanted * ring->stress);
+  return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
+}
+
 // Brings the fluid on a ring that has been fitted without.
 static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *report) {
   SbRingPatch patch;
@@ -253,6 +271,7 @@ static SbStatus press_fitted(SbRing *ring, const SbRingLoad *load, SbReport *rep
   const bool differ = load->pressure_left != load->pressure_right;
   const bool rises = touches || !differ || ring->body.inward;
   SbStatus status = rises ? sb_ring_press(ring, load, report) : press_open(ring, load, report);
+  status = status == SB_OK && touches ? fail_if_lifted(ring, report) : status;
   return tell_passed(ring, load, status, report);
 }
 

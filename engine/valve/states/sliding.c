@@ -154,7 +154,10 @@ void sb_sliding_kinetic_errors(SbSealState *out, double borne) {
 // section is not sheared fully.
 static void share_kinetic(SbSealState *out) {
   if (!isnan(out->borne_share)) {
-    out->real_area_share *= out->area_cut * (out->section == SB_RING_SLIDES ? out->borne_share : 1);
+    // The drag of a section that slides is that of its own film to the tolerance only, and may be
+    // larger; area_error has the difference. No more than the whole contact is in real contact.
+    const double carried = out->section == SB_RING_SLIDES ? out->borne_share : 1;
+    out->real_area_share = fmin(out->real_area_share * (out->area_cut * carried), 1);
     out->boundary_area *= out->area_cut * out->borne_share;
     // Where the pressure limits the shear, near the contact's ends, the area is proportional to the
     // width.
