@@ -85,6 +85,23 @@ static SbStatus compute_figures(SbSummary *out, const SbRecorder *r, SbReport *r
   return conclude_motion(out, r, report);
 }
 
+// Returns the speed [m/s] of the in-stroke at its middle; of a stem that does not pass there the
+// mean speed of the in-stroke, else that of the return. 0: the motion has none of them.
+static double speed_of(const SbRecorder *r) {
+  static const struct {
+    SbStage from, to;
+  } ways[] = {{SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
+  double speed = r->middle;
+  for (int i = 0; i < 2 && speed == 0; i++) {
+    const SbStageMark *from = &r->mark[ways[i].from], *to = &r->mark[ways[i].to];
+    if (from->reached && to->reached && to->time > from->time) {
+      speed = fabs(to->displacement - from->displacement) / (to->time - from->time);
+    }
+  }
+  const SbStageMark *back = &r->mark[SB_STAGE_E];
+  return speed == 0 && r->home > back->time ? back->displacement / (r->home - back->time) : speed;
+}
+
 // Relative; NaN for speeds so far apart that the coarser motion has taken another course.
 static double speed_error(double one, double other) {
   const double apart = one > 0 ? fabs(other / one - 1) : 0;
@@ -97,8 +114,10 @@ static void add_errors(SbRun *run, const SbRecorder *one, const SbSummary *of_on
   sb_run_add_errors(run, of_one, of_other, share);
   run->leak_error += share * run->model->bore_circumference * fabs(one->net - other->net);
   if (sb_run_finds_speed(run)) {
-    run->speed_error[SB_CYCLE_IN] += share * speed_error(one->middle, other->middle);
-    run->speed_error[SB_CYCLE_OUT] += share * speed_error(one->middle_back, other->middle_back);
+    const double in = speed_error(speed_of(one), speed_of(other));
+    run->speed_error[SB_CYCLE_IN] += share * in;
+    run->speed_error[SB_CYCLE_OUT] +=
+        share * (one->middle_back > 0 ? speed_error(one->middle_back, other->middle_back) : in);
   }
 }
 
@@ -237,24 +256,11 @@ void sb_run_fill_motion(SbSummary *summary, const SbDynamicsEnergy *energy,
 
 SbStatus sb_run_dynamic_speed(double *speed, bool *slips, SbRun *run, const SbRunHooks *hooks,
                               SbReport *report) {
-  static const struct {
-    SbStage from, to;
-  } ways[] = {{SB_STAGE_B, SB_STAGE_D}, {SB_STAGE_E, SB_STAGE_F}};
   SbRecorder r;
   SbStatus status = sb_run_record(&r, run, false, 0, hooks, report);
-  *speed = r.middle;
+  *speed = speed_of(&r);
   run->back_speed = r.middle_back;
   *slips = r.slips;
-  for (int i = 0; i < 2 && *speed == 0; i++) {
-    const SbStageMark *from = &r.mark[ways[i].from], *to = &r.mark[ways[i].to];
-    if (from->reached && to->reached && to->time > from->time) {
-      *speed = fabs(to->displacement - from->displacement) / (to->time - from->time);
-    }
-  }
-  const SbStageMark *back = &r.mark[SB_STAGE_E];
-  if (*speed == 0 && r.home > back->time) {
-    *speed = back->displacement / (r.home - back->time);
-  }
   if (*speed == 0 && *slips && run->model->drive == SB_MODEL_DRIVE_SINUSOID) {
     *speed = 4 * run->model->amplitude * run->model->frequency;
   }

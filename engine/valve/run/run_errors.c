@@ -212,9 +212,10 @@ static double of_seal(const SbRun *run, const SbFigure *figure, double value) {
   case SB_BY_EDGE:
     return state->width_error * (state->contact_right - state->contact_left);
   case SB_BY_FILM_SOLVED:
-    return fabs(value) * fmax(run->compared_error[seal], sb_contact_law(run->model)->shares
-                                                             ? 0
-                                                             : positive(state->central_error));
+    return fabs(value) *
+           (fmax(run->compared_error[seal],
+                 sb_contact_law(run->model)->shares ? 0 : positive(state->central_error)) +
+            speed);
   case SB_BY_BOUNDARY:
     return state->boundary_error;
   case SB_BY_TURN:
