@@ -1,8 +1,6 @@
 // Recognises the format of a table: tries every dialect on lines from its start, middle and end,
 // and uses the one in which most lines are equivalent rows of numbers. Two dialects that fit
 // equally but give other values are an issue. See text_table.h.
-#include "app/base/text_table.h"
-
 #include "app/base/bytes.h"
 #include "app/base/text_table_private.h"
 
@@ -63,9 +61,7 @@ static GString *narrow(const guint8 *bytes, size_t length, bool big) {
   GString *text = g_string_sized_new(length / 2);
   for (size_t i = 0; i + 1 < length; i += 2) {
     const gunichar unit = (gunichar)(bytes[i + !big] << 8 | bytes[i + big]);
-    if (unit == 0) {
-      g_string_append_c(text, '\0');
-    } else if (i > 0 || (unit != 0xfeff && unit != 0xfffe)) {
+    if (i > 0 || (unit != 0xfeff && unit != 0xfffe)) {
       g_string_append_unichar(text, unit >= 0xd800 && unit < 0xe000 ? '?' : unit);
     }
   }
@@ -91,10 +87,9 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
   const size_t looked = MIN(length, HEAD_BYTES);
   const bool big = code == SB_TEXT_TABLE_UTF16BE, wide = big || code == SB_TEXT_TABLE_UTF16LE;
   const bool newline = memchr(bytes, '\n', looked) != NULL || memchr(bytes, '\r', looked) == NULL;
-  GString *narrowed = wide ? narrow((const guint8 *)bytes, length, big) : NULL;
+  g_autoptr(GString) narrowed = wide ? narrow((const guint8 *)bytes, length, big) : NULL;
   const char *from = wide ? narrowed->str : bytes, *end = from + (wide ? narrowed->len : length);
   from += sb_bytes_begin(from, (size_t)(end - from), "\xef\xbb\xbf") ? 3 : 0;
-  file->text = g_string_sized_new((size_t)(end - from) + 1);
   bool good = true;
   for (const char *stop; from < end && good; from = stop + 1) {
     stop = memchr(from, newline ? '\n' : '\r', (size_t)(end - from));
@@ -119,9 +114,6 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
     GString *line = &g_array_index(file->line, GString, i);
     line->str = file->text->str + line->allocated_len;
   }
-  if (wide) {
-    g_string_free(narrowed, TRUE);
-  }
   return good ? NULL : "has a line of more than 64 MiB";
 }
 
@@ -133,34 +125,30 @@ static const char *format_of(const char *bytes, size_t length) {
                                            {"<", "HTML or XML"},
                                            {"{", "JSON"},
                                            {"[{", "JSON"},
-                                           {"%PDF", "a PDF"}};
+                                           {"%PDF", "a PDF"},
+                                           {"", NULL}};
   size_t i = 0;
-  while (i < G_N_ELEMENTS(formats) && !sb_bytes_begin(bytes, length, formats[i][0])) {
+  while (!sb_bytes_begin(bytes, length, formats[i][0])) {
     i++;
   }
-  return i < G_N_ELEMENTS(formats) ? formats[i][1] : NULL;
-}
-
-static void take_lines(Sample *sample, const GArray *lines, size_t from, size_t count) {
-  size_t bytes = 0;
-  for (size_t i = from; i < MIN(from + count, lines->len) && bytes < SAMPLE_BYTES; i++) {
-    GString line = g_array_index(lines, GString, i);
-    bytes += line.len + 1;
-    line.len = MIN(line.len, LINE_BYTES);
-    g_array_append_val(sample->line, line);
-    sample->head += from == 0;
-    sample->quoted |= memchr(line.str, '"', line.len) != NULL;
-  }
+  return formats[i][1];
 }
 
 // Takes lines from the start and, behind them, from three places, the last one at the end.
 static Sample take_sample(const GArray *lines) {
   Sample sample = {.line = g_array_new(FALSE, FALSE, sizeof(GString))};
-  take_lines(&sample, lines, 0, SAMPLE_LINES);
-  for (size_t part = 1; part <= 3; part++) {
-    const size_t from = part * (lines->len / 3), end = lines->len - MIN(lines->len, SAMPLE_TAIL);
-    if (MIN(from, end) > sample.head) {
-      take_lines(&sample, lines, MIN(from, end), SAMPLE_TAIL);
+  for (size_t part = 0; part <= 3; part++) {
+    const size_t end = lines->len - MIN(lines->len, SAMPLE_TAIL);
+    size_t i = MIN(part * (lines->len / 3), end),
+           bytes = part == 0 || i > sample.head ? 0 : SAMPLE_BYTES;
+    const size_t stop = MIN(i + (part == 0 ? SAMPLE_LINES : SAMPLE_TAIL), lines->len);
+    for (; i < stop && bytes < SAMPLE_BYTES; i++) {
+      GString line = g_array_index(lines, GString, i);
+      bytes += line.len + 1;
+      line.len = MIN(line.len, LINE_BYTES);
+      g_array_append_val(sample.line, line);
+      sample.head += part == 0;
+      sample.quoted |= memchr(line.str, '"', line.len) != NULL;
     }
   }
   return sample;
@@ -420,10 +408,9 @@ static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTabl
   }
   sb_text_table_take_header(table);
   // Marks between thousands are taken where a decimal mark distinguishes them.
-  const bool grouped = (fit.shape.saw & SB_TEXT_TABLE_SAW_GROUPS) != 0;
-  if (!grouped && fit.shape.saw != SB_TEXT_TABLE_SAW_DECIMAL) {
-    table->dialect.thousands = '\0';
-  }
+  const unsigned saw = fit.shape.saw;
+  const bool grouped = (saw & SB_TEXT_TABLE_SAW_GROUPS) != 0 || saw == SB_TEXT_TABLE_SAW_DECIMAL;
+  table->dialect.thousands = grouped ? table->dialect.thousands : '\0';
   return true;
 }
 
@@ -434,6 +421,7 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
   SbTextTableFile *file = table->file = g_new0(SbTextTableFile, 1);
   file->shown = g_strdup(name);
   file->line = g_array_new(FALSE, FALSE, sizeof(GString));
+  file->text = g_string_sized_new(length + 1);
   bytes = length > 0 ? bytes : "";
   wish = wish != NULL ? wish : &nothing;
   const SbTextTableEncoding key = wish->encoding;
@@ -448,9 +436,8 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
     return NULL;
   }
   const Sample sample = take_sample(file->line);
-  const bool good = recognise(table, &sample, wish, issues);
-  g_array_unref(sample.line);
-  return good ? g_steal_pointer(&table) : NULL;
+  g_autoptr(GArray) lines = sample.line;
+  return recognise(table, &sample, wish, issues) ? g_steal_pointer(&table) : NULL;
 }
 
 void sb_text_table_free(SbTextTable *table) {
@@ -458,9 +445,7 @@ void sb_text_table_free(SbTextTable *table) {
     return;
   }
   g_array_unref(table->file->line);
-  if (table->file->text != NULL) {
-    g_string_free(table->file->text, TRUE);
-  }
+  g_string_free(table->file->text, TRUE);
   g_free(table->file->names);
   g_free(table->file->shown);
   g_free(table->file);

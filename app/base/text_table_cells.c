@@ -117,12 +117,8 @@ bool sb_text_table_void(const SbTextTableCell *cell) {
   static const char *const words[] = {"",       "nan",     "-nan", "bad",     "void",    "nodata",
                                       "null",   "inf",     "-inf", "*",       "***",     "---",
                                       "masked", "no data", "n/a",  "1.#qnan", "-1.#ind", NULL};
-  const char *const *word = words;
-  while (*word != NULL && (strlen(*word) != cell->length ||
-                           g_ascii_strncasecmp(cell->text, *word, cell->length) != 0)) {
-    word++;
-  }
-  return *word != NULL;
+  g_autofree char *text = g_ascii_strdown(cell->text, (gssize)cell->length);
+  return strlen(text) == cell->length && g_strv_contains(words, text);
 }
 
 // Rewrites the number with no mark but a decimal point for sb_number_parse(), which checks it.

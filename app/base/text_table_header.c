@@ -46,11 +46,10 @@ static bool is_unit(const char *text) {
   g_auto(GStrv) parts = g_strsplit(text, "/", 3);
   bool all = parts[0] != NULL;
   for (char **part = parts; *part != NULL; part++) {
-    g_autofree char *power = g_strdup(*part);
-    for (size_t end = strlen(power); end > 1 && strchr("^23", power[end - 1]) != NULL; end--) {
-      power[end - 1] = '\0';
+    for (size_t end = strlen(*part); end > 1 && strchr("^23", (*part)[end - 1]) != NULL; end--) {
+      (*part)[end - 1] = '\0';
     }
-    all = all && sb_text_table_unit(power) != NULL;
+    all = all && sb_text_table_unit(*part) != NULL;
   }
   return all;
 }
@@ -93,16 +92,6 @@ static void split_name(char **name, char **unit, const char *text) {
   *unit = *unit != NULL ? *unit : g_strdup("");
 }
 
-static void add_cell(GPtrArray *out, const char *text, size_t length) {
-  // Letters and brackets of full width are those of ASCII.
-  g_autofree char *printed = sb_printable(text, length);
-  g_autofree char *cell = strstr(printed, "\xef\xbc") != NULL
-                              ? g_utf8_normalize(printed, -1, G_NORMALIZE_NFKC)
-                              : g_strdup(printed);
-  g_auto(GStrv) parts = g_strsplit(cell, "\"\"", -1);
-  g_ptr_array_add(out, g_strjoinv("\"", parts));
-}
-
 // Cells of a header line with a separator; 0 for two blanks or more.
 static char **cells_by(const char *line, size_t length, char separator) {
   SbTextTableCell cell[SB_TEXT_TABLE_COLUMNS_MAX];
@@ -115,15 +104,19 @@ static char **cells_by(const char *line, size_t length, char separator) {
   GPtrArray *out = g_ptr_array_new();
   const size_t cells = sb_text_table_split(cell, line, length, separator);
   for (size_t i = 0; i < cells; i++) {
-    add_cell(out, cell[i].text, cell[i].length);
-    char *text = out->pdata[out->len - 1];
+    // Letters and brackets of full width are those of ASCII.
+    g_autofree char *printed = sb_printable(cell[i].text, cell[i].length);
+    const bool wide = strstr(printed, "\xef\xbc") != NULL;
+    g_autofree char *plain = wide ? g_utf8_normalize(printed, -1, G_NORMALIZE_NFKC) : NULL;
+    g_auto(GStrv) parts = g_strsplit(wide ? plain : printed, "\"\"", -1);
+    char *text = g_strjoinv("\"", parts);
     // A unit between blanks is part of the name before it, unless that is a unit too.
-    if (separator == ' ' && out->len > 1 && strspn(text, "[(") > 0 &&
-        strspn(out->pdata[out->len - 2], "[(") == 0) {
-      g_autofree char *last = g_ptr_array_steal_index(out, out->len - 1);
-      g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1);
-      g_ptr_array_add(out, g_strconcat(before, " ", last, NULL));
+    if (separator == ' ' && out->len > 0 && strspn(text, "[(") > 0 &&
+        strspn(out->pdata[out->len - 1], "[(") == 0) {
+      g_autofree char *before = g_ptr_array_steal_index(out, out->len - 1), *unit = text;
+      text = g_strconcat(before, " ", unit, NULL);
     }
+    g_ptr_array_add(out, text);
   }
   g_ptr_array_add(out, NULL);
   return (char **)g_ptr_array_free(out, FALSE);

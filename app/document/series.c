@@ -5,7 +5,6 @@
 #include "app/base/text_table.h"
 #include "app/base/unit.h"
 
-#include <math.h>
 #include <string.h>
 
 enum { COLUMNS = 2 };
