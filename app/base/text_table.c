@@ -117,23 +117,6 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
   return good ? NULL : "has a line of more than 64 MiB";
 }
 
-// Returns the name of the format of bytes that are not text; NULL: they are.
-static const char *format_of(const char *bytes, size_t length) {
-  static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
-                                           {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},
-                                           {"TDSm", "a TDMS file"},
-                                           {"<", "HTML or XML"},
-                                           {"{", "JSON"},
-                                           {"[{", "JSON"},
-                                           {"%PDF", "a PDF"},
-                                           {"", NULL}};
-  size_t i = 0;
-  while (!sb_bytes_begin(bytes, length, formats[i][0])) {
-    i++;
-  }
-  return formats[i][1];
-}
-
 // Takes lines from the start and, behind them, from three places, the last one at the end.
 static Sample take_sample(const GArray *lines) {
   Sample sample = {.line = g_array_new(FALSE, FALSE, sizeof(GString))};
@@ -192,17 +175,12 @@ SbTextTableShape sb_text_table_shape(const GString *line, const SbTextTableDiale
 // Whether two lines are rows of one table: numbers, times and texts are in the same columns. A cell
 // may be empty; in a matrix, a row may have another length.
 static bool same_shape(const SbTextTableShape *a, const SbTextTableShape *b, bool matrix) {
-  if (matrix) {
-    return a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 && a->decimals == b->decimals;
-  }
-  return a->cells <= b->span && b->cells <= a->span && (a->texts & (b->numeric | b->clocks)) == 0 &&
-         (b->texts & (a->numeric | a->clocks)) == 0 && (a->numeric & b->clocks) == 0 &&
-         (b->numeric & a->clocks) == 0;
-}
-
-static bool is_row(const SbTextTableShape *shape, const SbTextTableDialect *dialect) {
-  return dialect->matrix ? shape->cells > 0 && shape->texts == 0
-                         : __builtin_popcountll(shape->numeric | shape->clocks) >= 2;
+  const guint64 values = a->numeric | a->clocks, others = b->numeric | b->clocks;
+  return matrix ? a->cells > 0 && b->cells > 0 && (a->texts | b->texts) == 0 &&
+                      a->decimals == b->decimals
+                : a->cells <= b->span && b->cells <= a->span && (a->texts & others) == 0 &&
+                      (b->texts & values) == 0 && (a->numeric & b->clocks) == 0 &&
+                      (b->numeric & a->clocks) == 0;
 }
 
 static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) {
@@ -217,7 +195,9 @@ static Fit try_dialect(const Sample *sample, const SbTextTableDialect *dialect) 
     while (at < count && !same_shape(&seen[at], &shape, dialect->matrix)) {
       at++;
     }
-    if (!is_row(&shape, dialect) || at == SHAPES) {
+    const bool row = dialect->matrix ? shape.cells > 0 && shape.texts == 0
+                                     : __builtin_popcountll(shape.numeric | shape.clocks) >= 2;
+    if (!row || at == SHAPES) {
       continue;
     }
     if (at == count) {
@@ -416,17 +396,29 @@ static bool recognise(SbTextTable *table, const Sample *sample, const SbTextTabl
 
 SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextTableDialect *wish,
                                  const char *name, GPtrArray *issues) {
-  static const SbTextTableDialect nothing = {0};
+  // Beginnings of files that are not text, and their formats.
+  static const char *const formats[][2] = {{"PK\x03\x04", "a workbook (.xlsx, .ods) or zip file"},
+                                           {"\xd0\xcf\x11\xe0", "a workbook (.xls)"},
+                                           {"TDSm", "a TDMS file"},
+                                           {"<", "HTML or XML"},
+                                           {"{", "JSON"},
+                                           {"[{", "JSON"},
+                                           {"%PDF", "a PDF"},
+                                           {"", NULL}};
   g_autoptr(SbTextTable) table = g_new0(SbTextTable, 1);
   SbTextTableFile *file = table->file = g_new0(SbTextTableFile, 1);
   file->shown = g_strdup(name);
   file->line = g_array_new(FALSE, FALSE, sizeof(GString));
   file->text = g_string_sized_new(length + 1);
   bytes = length > 0 ? bytes : "";
-  wish = wish != NULL ? wish : &nothing;
+  wish = wish != NULL ? wish : &(const SbTextTableDialect){0};
   const SbTextTableEncoding key = wish->encoding;
   table->dialect.encoding = key != SB_TEXT_TABLE_ANY_ENCODING ? key : find_encoding(bytes, length);
-  const char *format = format_of(bytes, length);
+  size_t known = 0;
+  while (!sb_bytes_begin(bytes, length, formats[known][0])) {
+    known++;
+  }
+  const char *format = formats[known][1];
   const char *wrong = length == 0      ? "is empty"
                       : format != NULL ? format
                                        : split_lines(file, bytes, length, table->dialect.encoding);

@@ -178,12 +178,10 @@ bool sb_text_table_number(double *out, const SbTextTableCell *cell,
 
 // Returns the number of a day; 0: there is no such date.
 static guint32 day_of(int day, int month, int year) {
-  GDate at;
-  g_date_clear(&at, 1);
-  if (day <= 31 && month <= 12 && g_date_valid_dmy((GDateDay)day, month, (GDateYear)year)) {
-    g_date_set_dmy(&at, (GDateDay)day, month, (GDateYear)year);
-  }
-  return g_date_valid(&at) ? g_date_get_julian(&at) : 0;
+  const bool valid =
+      day <= 31 && month <= 12 && g_date_valid_dmy((GDateDay)day, month, (GDateYear)year);
+  g_autoptr(GDate) at = valid ? g_date_new_dmy((GDateDay)day, month, (GDateYear)year) : NULL;
+  return valid ? g_date_get_julian(at) : 0;
 }
 
 bool sb_text_table_clock(SbTextTableClock *out, const SbTextTableCell *cell, char dates) {

@@ -9,7 +9,8 @@ SbCadBody *sb_cad_body_new(const char *name) {
   return body;
 }
 
-void sb_cad_body_free(SbCadBody *body) {
+static void body_free(gpointer data) {
+  SbCadBody *body = data;
   g_array_unref(body->profile);
   g_array_unref(body->features);
   g_free(body->name);
@@ -30,10 +31,14 @@ char *sb_cad_axis_text(const double *through, const double *direction) {
   return g_strdup_printf("%salong %s, %s, %s", through ? at : "", text[3], text[4], text[5]);
 }
 
+static SbProfile profile_of(const SbCadBody *body) {
+  return (SbProfile){(void *)body->profile->data, body->profile->len, body->closed};
+}
+
 SbCad *sb_cad_new(const char *format) {
   SbCad *cad = g_new0(SbCad, 1);
   cad->format = format;
-  cad->bodies = g_ptr_array_new_with_free_func((GDestroyNotify)sb_cad_body_free);
+  cad->bodies = g_ptr_array_new_with_free_func(body_free);
   cad->warnings = g_ptr_array_new_with_free_func(g_free);
   return cad;
 }
@@ -81,7 +86,7 @@ static double wall(double *height, const SbPiece *pieces, int count, int from, i
 
 // Appends lands, bores and grooves of a counter-clockwise profile.
 static void add_features(SbCadBody *body) {
-  const SbProfile profile = sb_cad_profile(body);
+  const SbProfile profile = profile_of(body);
   const int count = (int)profile.count - !profile.closed;
   g_autofree SbPiece *pieces = g_new(SbPiece, MAX(count, 1));
   for (int i = 0; i < count; i++) {
@@ -124,7 +129,7 @@ static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
     return;
   }
   sb_profile_turn(body->profile, body->closed);
-  const SbProfile profile = sb_cad_profile(body);
+  const SbProfile profile = profile_of(body);
   SbReport report = {0};
   if (sb_solid_revolve(&body->revolved, &profile, 1, &report) != SB_OK) {
     body->why = g_strdup(report.text);
@@ -143,11 +148,11 @@ static void join_outline_cavities(SbCad *cad) {
   g_autofree SbCadBody **around = g_new0(SbCadBody *, count + 1);
   for (guint i = 0; i < count; i++) {
     const SbCadBody *inner = cad->bodies->pdata[i];
-    const SbProfile within = sb_cad_profile(inner);
+    const SbProfile within = profile_of(inner);
     guint depth = 0;
     for (guint k = 0; k < count; k++) {
       SbCadBody *body = cad->bodies->pdata[k];
-      const SbProfile outline = sb_cad_profile(body);
+      const SbProfile outline = profile_of(body);
       if (k != i && body->layer == inner->layer && !body->measured && within.count > 0 &&
           outline.count > 0 && sb_profile_encloses(&outline, &within)) {
         const bool nearer = depth++ == 0 || body->revolved.volume < around[i]->revolved.volume;
@@ -191,19 +196,18 @@ void sb_cad_settle(SbCad *cad, const SbCadChoices *choices) {
 
 SbCad *sb_cad_read(const char *path, const SbCadChoices *choices, GError **error) {
   const size_t most = (size_t)256 << 20;
-  g_autofree char *shown = sb_printable(path, strlen(path));
   size_t size;
-  g_autofree char *text = sb_reader_load_file(&size, path, shown, most, SB_APP_ERROR_INPUT, error);
+  g_autofree char *text = sb_reader_load_file(&size, path, path, most, SB_APP_ERROR_INPUT, error);
   if (text == NULL) {
     return NULL;
   }
   // The content decides; the name only where the content is of no known kind.
   g_autofree char *lower = g_ascii_strdown(path, -1);
   return g_strstr_len(text, (gssize)MIN(size, 1000), "ISO-10303-21") != NULL
-             ? sb_cad_read_step(path, shown, choices, error)
+             ? sb_cad_read_step(path, choices, error)
          : sb_cad_is_stl(text, size) || g_str_has_suffix(lower, ".stl")
-             ? sb_cad_parse_stl(text, size, shown, choices, error)
-             : sb_cad_parse_dxf(text, size, shown, choices, error);
+             ? sb_cad_parse_stl(text, size, path, choices, error)
+             : sb_cad_parse_dxf(text, size, path, choices, error);
 }
 
 static bool read_point(SbProfilePoint *out, const char *word, double scale) {
@@ -267,13 +271,11 @@ char *sb_cad_profile_text(const SbCadBody *body) {
   const guint points = body->profile->len;
   for (guint i = 0; i < points + body->closed; i++) {
     const SbProfilePoint *p = &g_array_index(body->profile, SbProfilePoint, i % points);
-    char x[SB_NUMBER_SIZE], r[SB_NUMBER_SIZE], bulge[SB_NUMBER_SIZE];
-    sb_number_round(x, 1e3 * p->x, 12);
-    sb_number_round(r, 1e3 * p->r, 12);
-    g_string_append_printf(text, " %s,%s", x, r);
+    char x[SB_NUMBER_SIZE], r[SB_NUMBER_SIZE];
+    g_string_append_printf(text, " %s,%s", sb_number_round(x, 1e3 * p->x, 12),
+                           sb_number_round(r, 1e3 * p->r, 12));
     if (p->bulge != 0 && i < points) {
-      sb_number_round(bulge, p->bulge, 12);
-      g_string_append_printf(text, ",%s", bulge);
+      g_string_append_printf(text, ",%s", sb_number_round(x, p->bulge, 12));
     }
   }
   return g_string_free(text, FALSE);

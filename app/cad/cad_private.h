@@ -71,16 +71,8 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
 // outline with the largest revolved volume, with a warning if there are several; or body->why.
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces);
 
-// Returns a body with a copy of `name`, empty. Freed by sb_cad_body_free() or with its drawing.
+// Returns a body with a copy of `name`, empty. Freed with its drawing.
 SbCadBody *sb_cad_body_new(const char *name);
-
-// Returns the half-section of a body, borrowed.
-static inline SbProfile sb_cad_profile(const SbCadBody *body) {
-  return (SbProfile){(void *)body->profile->data, body->profile->len, body->closed};
-}
-
-// Frees a body; not NULL.
-void sb_cad_body_free(SbCadBody *body);
 
 // Completes the bodies: applies `flip` and `shift`, orders the profiles counter-clockwise, checks
 // them, and computes `revolved`, `solid` (unless `measured`) and the features. If a profile bounds
@@ -105,10 +97,9 @@ bool sb_cad_measure(SbSolid *solid, int body, bool *coarse);
 // that of the body. *failed: the kernel cannot cut it. Only in sealbench-cad.
 int *sb_cad_cut(size_t *count, double *volume, bool *failed, int body, const double box[6]);
 
-// Reads a STEP file by sealbench-cad into a settled drawing (sb_cad_settle()). `shown` is the
-// printable path for messages. Errors as sb_cad_read().
-SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
-                        GError **error);
+// Reads a STEP file by sealbench-cad into a settled drawing (sb_cad_settle()). Errors as
+// sb_cad_read().
+SbCad *sb_cad_read_step(const char *path, const SbCadChoices *choices, GError **error);
 
 // Returns whether bytes are an STL file: the size fits the binary header, or "solid" is first.
 bool sb_cad_is_stl(const char *data, gsize length);

@@ -58,9 +58,9 @@ static bool is_same(const Drawn *a, const Drawn *b, double same) {
 }
 
 // Returns the pieces (as Drawn) without those of no length, divided where others end on them or run
-// along them; pieces that are one are counted in `times`. Of more than NEAR_MAX pairs of pieces
-// that are close together, the first are compared.
-static GArray *tidied(const GArray *pieces, double same) {
+// along them; pieces that are one are counted in `times`, and vanish if `odd` and that is even. Of
+// more than NEAR_MAX pairs of pieces that are close together, the first are compared.
+static GArray *tidied(const GArray *pieces, double same, bool odd) {
   GArray *all = g_array_new(FALSE, FALSE, sizeof(Drawn));
   for (guint i = 0; i < pieces->len; i++) {
     const Drawn drawn = drawn_of(g_array_index(pieces, SbPiece, i));
@@ -88,7 +88,8 @@ static GArray *tidied(const GArray *pieces, double same) {
     }
   }
   for (guint i = all->len; i-- > 0;) {
-    if (g_array_index(all, Drawn, i).times == 0) {
+    const guint times = g_array_index(all, Drawn, i).times;
+    if (times == 0 || (odd && times % 2 == 0)) {
       g_array_remove_index(all, i);
     }
   }
@@ -304,12 +305,7 @@ static GArray *add_boundary(GPtrArray *outlines, GArray *alone, GArray *edges, d
 }
 
 void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, double same) {
-  g_autoptr(GArray) edges = tidied(pieces, same);
-  for (guint i = edges->len; i-- > 0;) {
-    if (g_array_index(edges, Drawn, i).times % 2 == 0) {
-      g_array_remove_index(edges, i);
-    }
-  }
+  g_autoptr(GArray) edges = tidied(pieces, same, true);
   half->crossed = edges->len;
   for (guint count = 0; count != edges->len;) {
     count = edges->len;
@@ -321,7 +317,7 @@ void sb_cad_add_closed(SbCadLines *half, const GArray *pieces, double gap, doubl
 }
 
 void sb_cad_add_open(SbCadLines *half, const GArray *pieces, double gap, double same) {
-  g_autoptr(GArray) edges = tidied(pieces, same);
+  g_autoptr(GArray) edges = tidied(pieces, same, false);
   const guint before = half->outlines->len;
   for (guint i = 0; i < edges->len; i++) {
     half->doubled += g_array_index(edges, Drawn, i).times - 1;

@@ -212,7 +212,7 @@ static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const cha
   double angle[SECTORS], best, volume;
   farthest(angle, stl, shell);
   angle[0] = choices->angle != NULL ? *choices->angle + NEXT_TO : angle[0];
-  GArray *pieces = cut(&best, stl, shell, angle[0]);
+  g_autoptr(GArray) pieces = cut(&best, stl, shell, angle[0]);
   for (int k = 1; choices->angle == NULL && k < SECTORS; k++) {
     if (!(isnan(angle[k]) || fabs(best / shell->solid.volume - 1) < MESH_ROUND)) {
       GArray *other = cut(&volume, stl, shell, angle[k]);
@@ -225,7 +225,6 @@ static void add_body(SbCad *cad, const SbStl *stl, const Shell *shell, const cha
   SbCadBody *body = sb_cad_body_new(name);
   g_ptr_array_add(cad->bodies, body);
   sb_cad_section(cad, body, pieces);
-  g_array_unref(pieces);
   body->measured = true;
   body->solid = shell->solid;
 }
@@ -268,7 +267,7 @@ static SbCad *of_mesh(SbStl *stl, const char *path, const SbCadChoices *choices,
   if (stl->turned > 0) {
     sb_note_add(cad->warnings, "%zu facets were inside out and are turned", stl->turned);
   }
-  g_autofree char *name = g_path_get_basename(path);
+  g_autofree char *shown = sb_printable(path, strlen(path)), *name = g_path_get_basename(shown);
   char *ending = strrchr(name, '.');
   if (ending != NULL && ending > name) {
     *ending = '\0';

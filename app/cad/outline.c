@@ -77,23 +77,17 @@ static void clip(GArray *out, SbPiece piece, double gap) {
       memcpy(at + 1, (double[]){at[2], at[1]}, 2 * sizeof *at);
     }
   }
-  at[cuts] = 1;
   double from[2] = {piece.x0, piece.y0};
   for (int i = 1; i <= cuts; i++) {
-    double to[2] = {piece.x1, piece.y1}, high = 0, place[2];
+    double high = 0, place[2];
     for (int k = 0; k <= 4; k++) { // its middle may touch the axis
       sb_piece_point(&piece, at[i - 1] + k / 4.0 * (at[i] - at[i - 1]), place);
       high = fmax(high, place[1]);
     }
-    if (i < cuts) {
-      to[0] = place[0];
-      to[1] = 0;
-    }
+    const double to[2] = {i < cuts ? place[0] : piece.x1, i < cuts ? 0 : piece.y1};
+    const double bulge = tan(atan(piece.bulge) * (at[i] - at[i - 1]));
     if (high > gap) {
-      g_array_append_vals(
-          out,
-          &(SbPiece){from[0], from[1], to[0], to[1], tan(atan(piece.bulge) * (at[i] - at[i - 1]))},
-          1);
+      g_array_append_vals(out, &(SbPiece){from[0], from[1], to[0], to[1], bulge}, 1);
     }
     memcpy(from, to, sizeof from);
   }
@@ -243,12 +237,6 @@ static void read_half(SbCadLines *half, const GPtrArray *entities, int side, dou
   }
 }
 
-static void half_clear(SbCadLines *half) {
-  g_ptr_array_unref(half->outlines);
-  g_array_unref(half->pieces);
-  g_array_unref(half->alone);
-}
-
 // Adds warnings on what was ignored in the half that is used, and on the other one.
 static void note_half(SbCad *cad, const char *name, const SbCadLines *half, const SbCadLines *other,
                       double gap) {
@@ -315,8 +303,11 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
     made++;
     g_ptr_array_add(cad->bodies, body);
   }
-  half_clear(&half[0]);
-  half_clear(&half[1]);
+  for (int k = 0; k < 2; k++) {
+    g_ptr_array_unref(half[k].outlines);
+    g_array_unref(half[k].pieces);
+    g_array_unref(half[k].alone);
+  }
 }
 
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {

@@ -9,16 +9,12 @@
 
 enum { TEXT_MAX = 64 << 20 };
 
-// Beside this program where it is not installed, else in libexecdir.
-static char *helper_path(void) {
-  static const char *const places[] = {SB_LIBEXEC_FROM_PROGRAM, ".", "..", NULL};
-  const char *given = g_getenv("SEALBENCH_CAD");
-  return given != NULL ? g_strdup(given) : sb_beside_program(places, "sealbench-cad");
-}
-
 // What the helper prints; NULL with an error.
 static char *run_helper(const char *path, const SbCadChoices *choices, GError **error) {
-  g_autofree char *program = helper_path();
+  // Beside this program where it is not installed, else in libexecdir.
+  static const char *const places[] = {SB_LIBEXEC_FROM_PROGRAM, ".", "..", NULL};
+  g_autofree char *program = g_strdup(g_getenv("SEALBENCH_CAD"));
+  program = program != NULL ? program : sb_beside_program(places, "sealbench-cad");
   if (program == NULL) {
     sb_app_error_input(
         error, "STEP files need sealbench-cad, which this build lacks: run tools/setup step and "
@@ -114,12 +110,11 @@ static bool take_text(SbCad *cad, char *text, GError **error) {
                             "ends the CAD kernel before it is read (a crash, or more than 4 GB)");
 }
 
-SbCad *sb_cad_read_step(const char *path, const char *shown, const SbCadChoices *choices,
-                        GError **error) {
+SbCad *sb_cad_read_step(const char *path, const SbCadChoices *choices, GError **error) {
   g_autofree char *report = run_helper(path, choices, error);
   g_autoptr(SbCad) cad = sb_cad_new("STEP");
   if (report == NULL || !take_text(cad, report, error)) {
-    sb_app_error_prefix(error, shown);
+    sb_app_error_prefix(error, path);
     return NULL;
   }
   sb_cad_settle(cad, choices);

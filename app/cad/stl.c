@@ -1,6 +1,5 @@
 // STL files; see cad.h.
 #include "app/base/bytes.h"
-#include "app/base/reader.h"
 #include "app/cad/cad_private.h"
 
 enum { HEADER = 84, RECORD = 50 };

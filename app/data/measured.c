@@ -322,7 +322,6 @@ static bool settle_columns(SbMeasured *m, SbTextTable *table, const SbData *data
     m->column[c].unit = g_strdup(column->clock ? "clock" : column->unit);
   }
   for (int c = 0; c < SB_CHANNELS; c++) {
-    scale[c] = 1;
     if (m->column[c].unit != NULL && !m->column[c].clock &&
         !settle_unit(&scale[c], m, table, data, (SbChannel)c, issues)) {
       return false;
@@ -432,7 +431,7 @@ static bool displace(SbMeasured *m, const SbData *data, GPtrArray *issues) {
 
 static SbMeasured *read_all(SbTextTable *table, const SbData *data, double speed, GPtrArray *list) {
   g_autoptr(SbMeasured) m = g_new0(SbMeasured, 1);
-  double scale[SB_CHANNELS] = {0};
+  double scale[SB_CHANNELS] = {1, 1, 1};
   m->name = g_path_get_basename(data->path);
   m->dialect = table->dialect;
   m->header_lines = table->header_lines;

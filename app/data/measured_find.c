@@ -446,21 +446,10 @@ static void find_stop(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke
   }
 }
 
-static void find_stages(SbMeasured *m) {
-  const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
-  const double stroke = m->displacement[cycle->turn];
-  find_first_slip(m, cycle, stroke);
-  find_stop(m, cycle, stroke);
-  const double end = m->stage[SB_STAGE_D].found ? m->stage[SB_STAGE_D].displacement : stroke;
-  find_ramps(m, cycle, end);
-  m->stage[SB_STAGE_A].reason = "it is where the record begins";
-}
-
 bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
-  double low, high;
   const guint before = issues->len;
-  gsl_stats_minmax(&low, &high, m->displacement, 1, m->count);
-  if (!(high > low)) {
+  if (!(gsl_stats_max(m->displacement, 1, m->count) >
+        gsl_stats_min(m->displacement, 1, m->count))) {
     return sb_data_add_issue(data, SB_DATA_FILE, NULL, issues, "its displacement does not change");
   }
   g_autoptr(GArray) turns = find_turns(m);
@@ -470,6 +459,11 @@ bool sb_measured_find(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   }
   settle_turns(m);
   find_noise(m);
-  find_stages(m);
+  const SbMeasuredCycle *cycle = sb_measured_cycle(m, m->first);
+  const double stroke = m->displacement[cycle->turn];
+  find_first_slip(m, cycle, stroke);
+  find_stop(m, cycle, stroke);
+  find_ramps(m, cycle, m->stage[SB_STAGE_D].found ? m->stage[SB_STAGE_D].displacement : stroke);
+  m->stage[SB_STAGE_A].reason = "it is where the record begins";
   return true;
 }
