@@ -60,10 +60,9 @@ void sb_cad_add_open(SbCadLines *lines, const GArray *pieces, double gap, double
 
 // Finds the outlines in `entities` (of GArray of SbPiece) about the line y = 0, with x as drawn
 // and r = |y|: those above it, or below if there are none above. Ends within `gap` [m] are one
-// point; the line y = 0 closes what ends on it. Entities that close by themselves are outlines;
-// edges that two of them share vanish. Of other pieces, in any order, an outline is the outer
-// boundary of those that are connected. Appends them as bodies named `name`, for sb_cad_settle(),
-// and warnings on what was ignored and on halves that differ.
+// point; the line y = 0 closes what ends on it. Appends those of entities that close by themselves
+// and of other pieces, in any order, as bodies named `name`, for sb_cad_settle(), and warnings on
+// what was ignored and on halves that differ.
 void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap);
 
 // Sets the profile of a body, and `revolved`, from the pieces of its section in the plane of the

@@ -305,18 +305,13 @@ static SbDxfMap find_axis(SbCad *cad, const Drawing *drawing, const SbCadChoices
       memcpy(at, (double[]){line->x0, line->y0, 0}, sizeof at);
     }
   }
-  if (choices->axis != NULL && !choices->section) {
-    memcpy(along, choices->axis, sizeof along);
-  }
-  if (choices->through != NULL && !choices->section) {
-    memcpy(at, choices->through, sizeof at);
-  }
-  at[1] = choices->section ? drawing->low - AWAY : at[1];
+  const double *axis = choices->axis != NULL && !choices->section ? choices->axis : along;
+  const double *through = choices->through != NULL && !choices->section ? choices->through : at;
+  const double x = through[0], y = choices->section ? drawing->low - AWAY : through[1];
   // The point of the line that is nearest to the drawing's origin is x = 0.
-  const double length = hypot(along[0], along[1]), c = along[0] / length, s = along[1] / length;
-  const double foot = at[0] * c + at[1] * s;
-  const double point[3] = {at[0] - foot * c, at[1] - foot * s, 0};
-  g_autofree char *text = sb_cad_axis_text(point, along);
+  const double length = hypot(axis[0], axis[1]), c = axis[0] / length, s = axis[1] / length;
+  const double foot = x * c + y * s, point[3] = {x - foot * c, y - foot * s, 0};
+  g_autofree char *text = sb_cad_axis_text(point, axis);
   cad->axis = g_strconcat(text, longest > 0 ? " (the longest centre line)" : "", NULL);
   const SbDxfMap way = {c, s, 0, -s, c, point[0] * s - point[1] * c};
   const SbPiece *other = NULL;
@@ -355,7 +350,21 @@ static void left_out(SbCad *cad, const Drawing *drawing) {
   }
 }
 
-static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *choices) {
+// Places model space and makes its bodies; NULL with an error.
+static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError **error) {
+  if (!read_file(drawing, error) ||
+      (drawing->unit == NULL &&
+       !sb_app_error_choose(error, choices->section ? NULL : "unit", "mm\ncm\ninch",
+                            "states no unit ($INSUNITS)")) ||
+      !sb_unit_scale(&drawing->scale, drawing->unit, "m", "mm", error)) {
+    return NULL;
+  }
+  const SbDxfMap way = {drawing->scale, 0, 0, 0, drawing->scale, 0};
+  if (!place_block(drawing, drawing->model, &way, "0", 0, error)) {
+    return NULL;
+  }
+  SbCad *cad = sb_cad_new("DXF");
+  cad->unit = g_strdup(drawing->unit);
   const SbDxfMap axis = find_axis(cad, drawing, choices);
   for (guint k = 0; k < drawing->names->len; k++) {
     const char *name = drawing->names->pdata[k];
@@ -372,24 +381,6 @@ static void make_bodies(SbCad *cad, const Drawing *drawing, const SbCadChoices *
   }
   sb_cad_settle(cad, choices);
   left_out(cad, drawing);
-}
-
-// Places model space and makes its bodies; NULL with an error.
-static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError **error) {
-  if (!read_file(drawing, error) ||
-      (drawing->unit == NULL &&
-       !sb_app_error_choose(error, choices->section ? NULL : "unit", "mm\ncm\ninch",
-                            "states no unit ($INSUNITS)")) ||
-      !sb_unit_scale(&drawing->scale, drawing->unit, "m", "mm", error)) {
-    return NULL;
-  }
-  const SbDxfMap way = {drawing->scale, 0, 0, 0, drawing->scale, 0};
-  if (!place_block(drawing, drawing->model, &way, "0", 0, error)) {
-    return NULL;
-  }
-  SbCad *cad = sb_cad_new("DXF");
-  cad->unit = g_strdup(drawing->unit);
-  make_bodies(cad, drawing, choices);
   if (cad->bodies->len == 0) {
     g_ptr_array_add(cad->warnings, NULL);
     g_autofree char *why = g_strjoinv("; ", (char **)cad->warnings->pdata);
@@ -401,16 +392,13 @@ static SbCad *of_drawing(Drawing *drawing, const SbCadChoices *choices, GError *
   return cad;
 }
 
-// Returns a table of texts that it owns to values that `clear` frees.
-static GHashTable *table_of(GDestroyNotify clear) {
-  return g_hash_table_new_full(g_str_hash, g_str_equal, g_free, clear);
-}
-
 SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
                         const SbCadChoices *choices, GError **error) {
   const gsize skipped = sb_bytes_begin(text, length, "\xEF\xBB\xBF") ? 3 : 0;
-  g_autoptr(GHashTable) blocks = table_of(block_free), hidden = table_of(NULL);
-  g_autoptr(GHashTable) line_types = table_of(g_free), left_out = table_of(NULL);
+  g_autoptr(GHashTable) blocks = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, block_free);
+  g_autoptr(GHashTable) hidden = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
+  g_autoptr(GHashTable) types = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, g_free);
+  g_autoptr(GHashTable) left_out = g_hash_table_new_full(g_str_hash, g_str_equal, g_free, NULL);
   g_autoptr(GPtrArray) names = g_ptr_array_new_with_free_func(g_free);
   g_autoptr(GPtrArray) layers = g_ptr_array_new_with_free_func((GDestroyNotify)g_ptr_array_unref);
   g_autoptr(GArray) centre = g_array_new(FALSE, FALSE, sizeof(SbPiece));
@@ -422,7 +410,7 @@ SbCad *sb_cad_parse_dxf(const char *text, gsize length, const char *name,
       .model = &model,
       .blocks = blocks,
       .hidden = hidden,
-      .line_types = line_types,
+      .line_types = types,
       .names = names,
       .layers = layers,
       .left_out = left_out,

@@ -53,15 +53,6 @@ void sb_dxf_entity_clear(SbDxfEntity *entity) {
   }
 }
 
-static void entity_begin(SbDxfEntity *entity, const char *type) {
-  sb_dxf_entity_clear(entity);
-  *entity = (SbDxfEntity){.layer = "0", .number[230] = 1, .low = INFINITY, .high = -INFINITY};
-  g_strlcpy(entity->type, type, sizeof entity->type);
-  for (int i = 0; i < SB_DXF_LISTS; i++) {
-    entity->list[i] = g_array_new(FALSE, FALSE, sizeof(double));
-  }
-}
-
 // Takes a pair of an entity.
 static bool entity_take(SbDxfEntity *entity, const SbDxfReader *reader, GError **error) {
   const int code = reader->code;
@@ -102,7 +93,12 @@ bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error
   if (!sb_dxf_read_pair(reader, error)) {
     return false;
   }
-  entity_begin(entity, reader->value);
+  sb_dxf_entity_clear(entity);
+  *entity = (SbDxfEntity){.layer = "0", .number[230] = 1, .low = INFINITY, .high = -INFINITY};
+  g_strlcpy(entity->type, reader->value, sizeof entity->type);
+  for (int i = 0; i < SB_DXF_LISTS; i++) {
+    entity->list[i] = g_array_new(FALSE, FALSE, sizeof(double));
+  }
   enum { FRAME = 16 }; // a VERTEX that is a control point of a spline, not of the line
   double flags = 0;
   guint before = 0;
@@ -280,18 +276,14 @@ static bool add_points(GArray *out, const SbDxfMap *way, const SbDxfEntity *enti
 
 bool sb_dxf_pieces(GArray *out, const SbDxfMap *way, const SbDxfEntity *entity) {
   const double *n = entity->number;
-  bool good = false;
-  if (sb_dxf_is(entity, "LINE")) {
-    good = add_bulge(out, way, &(SbPiece){n[10], n[20], n[11], n[21], 0});
-  } else if (sb_dxf_is(entity, "CIRCLE") || sb_dxf_is(entity, "ARC")) {
-    good = add_arc(out, way, entity);
-  } else if (sb_dxf_is(entity, "ELLIPSE")) {
-    good = add_ellipse(out, way, entity);
-  } else if (sb_dxf_is(entity, "SPLINE")) {
-    good = add_spline(out, way, entity);
-  } else if (sb_dxf_is(entity, "LWPOLYLINE") || sb_dxf_is(entity, "POLYLINE")) {
-    good = add_points(out, way, entity);
-  }
+  const SbPiece line = {n[10], n[20], n[11], n[21], 0};
+  const bool arc = sb_dxf_is(entity, "CIRCLE") || sb_dxf_is(entity, "ARC");
+  const bool points = sb_dxf_is(entity, "LWPOLYLINE") || sb_dxf_is(entity, "POLYLINE");
+  bool good = sb_dxf_is(entity, "LINE")      ? add_bulge(out, way, &line)
+              : arc                          ? add_arc(out, way, entity)
+              : sb_dxf_is(entity, "ELLIPSE") ? add_ellipse(out, way, entity)
+              : sb_dxf_is(entity, "SPLINE")  ? add_spline(out, way, entity)
+                                             : points && add_points(out, way, entity);
   for (guint i = 0; good && i < out->len; i++) {
     const SbPiece *p = &g_array_index(out, SbPiece, i);
     good = fmax(fmax(fabs(p->x0), fabs(p->y0)), fmax(fabs(p->x1), fabs(p->y1))) < FARTHEST;

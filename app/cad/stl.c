@@ -7,11 +7,8 @@ enum { HEADER = 84, RECORD = 50 };
 // A text facet takes up to about 300 bytes; 512 leaves room for long numbers.
 static const size_t LONGEST = (size_t)SB_STL_TRIANGLES_MAX * 512;
 
-// Part of the box's diagonal within which corners are one: what six digits of text leave open.
-static const double WELD = 1e-5;
-
-// Part of the largest coordinate, for a part far from its origin: two units of single precision.
-static const double WELD_SINGLE = 0x1p-22;
+// Parts of the box's diagonal, as six digits of text leave open, and of the largest coordinate.
+static const double WELD = 1e-5, WELD_SINGLE = 0x1p-22;
 
 // Returns the key of a cell of a grid; several cells may have one.
 static gpointer key_of(const gint64 at[3]) {

@@ -1,6 +1,4 @@
 // See scan.h.
-#include "app/data/scan/scan.h"
-
 #include "app/base/reader.h"
 #include "app/base/unit.h"
 #include "app/data/scan/scan_private.h"

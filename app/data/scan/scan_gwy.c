@@ -200,26 +200,6 @@ static bool apply_mask(SbScan *out, const Component *field, GError **error) {
   return true;
 }
 
-static bool read_channel(SbScan *out, const Component *channel, GError **error) {
-  Field field;
-  if (!read_field(&field, channel, error)) {
-    return false;
-  }
-  const double xy = sb_scan_length(field.unit_xy), z = sb_scan_length(field.unit_z);
-  if (!(xy > 0 && z > 0)) {
-    return sb_app_error_input(error,
-                              "units of the channel are not lengths (\"%s\", heights \"%s\")",
-                              field.unit_xy, field.unit_z);
-  }
-  const SbScanBytes data = {field.data, field.data + 8 * field.columns * field.rows};
-  if (!sb_scan_take_grid(out, field.columns, field.rows, 'd', data, z, NAN, error)) {
-    return false;
-  }
-  out->heights.dx = xy * field.width / (double)field.columns;
-  out->heights.dy = xy * field.height / (double)field.rows;
-  return true;
-}
-
 bool sb_scan_parse_gwy(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
   out->format = "Gwyddion";
   file.at += 4;
@@ -230,10 +210,23 @@ bool sb_scan_parse_gwy(SbScan *out, SbScanBytes file, const SbScanChoices *wish,
   }
   const Component container = {.value = content.at, .count = (size_t)(content.end - content.at)};
   Component data, title = {0}, mask;
+  Field field;
   const long id = choose(&data, &title, &container, wish->channel, error);
-  if (id < 0 || !read_channel(out, &data, error)) {
+  if (id < 0 || !read_field(&field, &data, error)) {
     return false;
   }
+  const double xy = sb_scan_length(field.unit_xy), z = sb_scan_length(field.unit_z);
+  if (!(xy > 0 && z > 0)) {
+    return sb_app_error_input(error,
+                              "units of the channel are not lengths (\"%s\", heights \"%s\")",
+                              field.unit_xy, field.unit_z);
+  }
+  const SbScanBytes numbers = {field.data, field.data + 8 * field.columns * field.rows};
+  if (!sb_scan_take_grid(out, field.columns, field.rows, 'd', numbers, z, NAN, error)) {
+    return false;
+  }
+  out->heights.dx = xy * field.width / (double)field.columns;
+  out->heights.dy = xy * field.height / (double)field.rows;
   out->title = g_strdup((const char *)title.value);
   return wish->ignore_mask || !find_of(&mask, &container, 'o', id, "mask") ||
          g_strcmp0(mask.object, "GwyDataField") != 0 || apply_mask(out, &mask, error);
