@@ -110,18 +110,6 @@ static bool take_said(SbMeasured *m, SbTextTable *table, const SbData *data, GPt
 // without a unit, by its name alone, by its unit where no word of its name is known, as a number.
 enum { FIT_NAME_UNIT, FIT_NAME, FIT_NAME_OTHER, FIT_UNIT, FIT_NUMBER, FIT_NONE };
 
-static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
-  const bool clock = column->clock && channel == SB_CHANNEL_TIME;
-  double scale;
-  const bool kind = clock || unit_scale(&scale, column->unit, channel);
-  const bool known = is_known(column->name);
-  return !column->numeric && !clock          ? FIT_NONE
-         : !name_fits(column->name, channel) ? (kind && !known ? FIT_UNIT : FIT_NUMBER)
-         : kind                              ? FIT_NAME_UNIT
-         : *column->unit == '\0'             ? FIT_NAME
-                                             : FIT_NAME_OTHER;
-}
-
 // Sets of columns have a bit for each column.
 #define BIT(column)    (G_GUINT64_CONSTANT(1) << (column))
 #define FIRST(columns) ((size_t)__builtin_ctzll(columns))
@@ -129,10 +117,19 @@ static int fit_of(const SbTextTableColumn *column, SbChannel channel) {
 // Returns the columns that fit a channel best, at least as well as `last`.
 static guint64 find_columns(const SbTextTable *table, SbChannel channel, int last) {
   guint64 columns = 0;
-  for (int fit = FIT_NAME_UNIT; fit <= last && columns == 0; fit++) {
-    for (size_t i = 0; i < table->columns; i++) {
-      columns |= fit_of(&table->column[i], channel) == fit ? BIT(i) : 0;
-    }
+  for (size_t i = 0; i < table->columns; i++) {
+    const SbTextTableColumn *column = &table->column[i];
+    const bool clock = column->clock && channel == SB_CHANNEL_TIME;
+    double scale;
+    const bool kind = clock || unit_scale(&scale, column->unit, channel);
+    const int fit = !column->numeric && !clock ? FIT_NONE
+                    : !name_fits(column->name, channel)
+                        ? (kind && !is_known(column->name) ? FIT_UNIT : FIT_NUMBER)
+                    : kind                  ? FIT_NAME_UNIT
+                    : *column->unit == '\0' ? FIT_NAME
+                                            : FIT_NAME_OTHER;
+    columns = (fit < last ? 0 : columns) | (fit <= last ? BIT(i) : 0);
+    last = MIN(fit, last);
   }
   return columns;
 }

@@ -11,7 +11,7 @@
 // line is dropped. A block whose time, or without time whose displacement, goes back is another
 // test. Where the time begins again, a block begins; a first row beyond all others, as of full
 // scales, is one.
-static void drop_blocks(SbMeasured *m, double *block) {
+void sb_measured_tests(SbMeasured *m, const SbTextTable *table, double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0, more = 0;
   for (size_t i = 1, begin = 0; time != NULL && i < m->count; i++) {
@@ -50,11 +50,7 @@ static void drop_blocks(SbMeasured *m, double *block) {
     kept = apart ? MAX(kept, end - i) : kept + end - i;
     last = apart && !before ? last : end - 1;
   }
-}
-
-void sb_measured_tests(SbMeasured *m, const SbTextTable *table, double *block) {
   size_t specimens = 0;
-  drop_blocks(m, block);
   // A column may number cycles, which are no tests, or name specimens, which are.
   for (size_t i = 0; i < table->columns; i++) {
     const char *name = table->column[i].name;

@@ -74,30 +74,6 @@ static bool read_heading(Column *out, SbSeriesKind kind, const SbTextTable *tabl
                        heading->name);
 }
 
-static bool take_row(SbModelSeries *out, const Column *columns, size_t row, double *const *value,
-                     const char *name, GPtrArray *issues) {
-  double si[COLUMNS];
-  for (int i = 0; i < COLUMNS; i++) {
-    const Quantity *q = columns[i].quantity;
-    si[i] = value[i][row] * columns[i].scale + columns[i].offset;
-    if (!(si[i] >= q->low && si[i] <= q->high)) {
-      return sb_issues_add(issues, name, 0, NULL, q->allowed, "row %zu: column %d is out of range",
-                           row + 1, i + 1);
-    }
-  }
-  if (out->count == SB_MODEL_SERIES_MAX) {
-    return sb_issues_add(issues, name, 0, NULL, NULL, "has more than the %d rows of a series",
-                         SB_MODEL_SERIES_MAX);
-  }
-  if (out->count > 0 && !(si[0] > out->time[out->count - 1])) {
-    return sb_issues_add(issues, name, 0, NULL, NULL,
-                         "row %zu: its time does not come after the row before", row + 1);
-  }
-  out->time[out->count] = si[0];
-  out->value[out->count++] = si[1];
-  return true;
-}
-
 static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable *table,
                        const char *name, GPtrArray *issues) {
   Column columns[COLUMNS];
@@ -120,8 +96,25 @@ static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable 
   bool good =
       rows.left_text == NULL || sb_issues_add(issues, name, rows.left_line, NULL, "two numbers",
                                               "\"%s\" is not a row of the series", rows.left_text);
-  for (size_t i = 0; i < rows.rows && good; i++) {
-    good = take_row(out, columns, i, value, name, issues);
+  for (size_t row = 0; row < rows.rows && good; row++) {
+    double si[COLUMNS];
+    for (int i = 0; i < COLUMNS && good; i++) {
+      const Quantity *q = columns[i].quantity;
+      si[i] = value[i][row] * columns[i].scale + columns[i].offset;
+      good = (si[i] >= q->low && si[i] <= q->high) ||
+             sb_issues_add(issues, name, 0, NULL, q->allowed, "row %zu: column %d is out of range",
+                           row + 1, i + 1);
+    }
+    if (good && out->count == SB_MODEL_SERIES_MAX) {
+      good = sb_issues_add(issues, name, 0, NULL, NULL, "has more than the %d rows of a series",
+                           SB_MODEL_SERIES_MAX);
+    } else if (good && out->count > 0 && !(si[0] > out->time[out->count - 1])) {
+      good = sb_issues_add(issues, name, 0, NULL, NULL,
+                           "row %zu: its time does not come after the row before", row + 1);
+    } else if (good) {
+      out->time[out->count] = si[0];
+      out->value[out->count++] = si[1];
+    }
   }
   g_free(value[0]);
   g_free(value[1]);

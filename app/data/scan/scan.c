@@ -17,17 +17,6 @@ bool sb_scan_allocate(SbScan *out, size_t columns, size_t rows, GError **error) 
   return out->heights.z != NULL;
 }
 
-static double number_at(const guchar *p, char kind) {
-  return kind == 'B'   ? *p
-         : kind == 'H' ? sb_bytes_u16(p)
-         : kind == 'I' ? sb_bytes_u32(p)
-         : kind == 'b' ? (gint8)*p
-         : kind == 'h' ? (gint16)sb_bytes_u16(p)
-         : kind == 'i' ? (gint32)sb_bytes_u32(p)
-         : kind == 'f' ? sb_bytes_float(p)
-                       : sb_bytes_double(p);
-}
-
 bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, char kind, SbScanBytes bytes,
                        double scale, double missing, GError **error) {
   static const guint8 sizes[] = {1, 2, 4, 4, 1, 2, 4, 8};
@@ -38,7 +27,15 @@ bool sb_scan_take_grid(SbScan *out, size_t columns, size_t rows, char kind, SbSc
   }
   const bool good = sb_scan_allocate(out, columns, rows, error);
   for (size_t i = 0; good && i < columns * rows; i++) {
-    const double value = number_at(bytes.at + i * size, kind);
+    const guchar *p = bytes.at + i * size;
+    const double value = kind == 'B'   ? *p
+                         : kind == 'H' ? sb_bytes_u16(p)
+                         : kind == 'I' ? sb_bytes_u32(p)
+                         : kind == 'b' ? (gint8)*p
+                         : kind == 'h' ? (gint16)sb_bytes_u16(p)
+                         : kind == 'i' ? (gint32)sb_bytes_u32(p)
+                         : kind == 'f' ? sb_bytes_float(p)
+                                       : sb_bytes_double(p);
     out->heights.z[i] = value == missing || fabs(value) > 3.4e38 ? NAN : scale * value;
   }
   return good;

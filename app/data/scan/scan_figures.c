@@ -58,15 +58,6 @@ SbScanScatter sb_scan_scatter(const SbScanFigures *from, double (*value)(const S
                    : (SbScanScatter){gsl_stats_mean(each, 1, count), gsl_stats_sd(each, 1, count)};
 }
 
-// Share of m4 in waves of fewer points than this.
-static double fine_share(const SbHeightSpectrum *spectrum, double step, double points) {
-  double fine = 0;
-  for (size_t r = 0; r < spectrum->ring_count; r++) {
-    fine += spectrum->ring[r].q > 2 * M_PI / (points * step) ? spectrum->ring[r].moment[2] : 0;
-  }
-  return fine / spectrum->moment[2];
-}
-
 static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices *choices) {
   SbWarnings *list = &out->warnings;
   const SbHeightFigures *f = &out->figures;
@@ -92,7 +83,12 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
             100 * missing);
   }
   const double step = fmax(h->dx, h->rows > 1 ? h->dy : 0);
-  const double fine = fine_share(&out->spectrum, step, 8);
+  double fine = 0; // share of m4
+  for (size_t r = 0; r < out->spectrum.ring_count; r++) {
+    const SbSpectrumRing *ring = &out->spectrum.ring[r];
+    fine += ring->q > 2 * M_PI / (8 * step) ? ring->moment[2] : 0;
+  }
+  fine /= out->spectrum.moment[2];
   if (fine > 0.5) {
     sb_warn(list, "surface-sampling", sb_input(SB_P_SURFACE_GT_PRODUCT),
             "%.0f %% of m4 is in waves of fewer than 8 points: density and radius of asperities "

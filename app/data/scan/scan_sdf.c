@@ -6,21 +6,18 @@
 
 enum { HEADER = 81 };
 
-// The text form: a matrix and header (scan_text_keys.def), without the lines between and behind.
-static bool read_text(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
-  g_autofree char *text = g_strndup((const char *)file.at, (gsize)(file.end - file.at));
-  g_auto(GStrv) parts = g_strsplit(text, "\n*", 3);
-  g_autofree char *both = g_strconcat(parts[0], "\n", parts[1], NULL);
-  const guchar *start = (const guchar *)both;
-  return sb_scan_parse_text(out, (SbScanBytes){start, start + strlen(both)}, wish, error);
-}
-
 bool sb_scan_parse_sdf(SbScan *out, SbScanBytes file, const SbScanChoices *wish, GError **error) {
-  const bool text = *file.at == 'a', good = text && read_text(out, file, wish, error);
-  out->format = "surface data file";
-  if (text) {
+  static const char name[] = "surface data file";
+  if (*file.at == 'a') { // a matrix and header (scan_text_keys.def), less lines between and behind
+    g_autofree char *text = g_strndup((const char *)file.at, (gsize)(file.end - file.at));
+    g_auto(GStrv) parts = g_strsplit(text, "\n*", 3);
+    g_autofree char *both = g_strconcat(parts[0], "\n", parts[1], NULL);
+    const SbScanBytes own = {(const guchar *)both, (const guchar *)both + strlen(both)};
+    const bool good = sb_scan_parse_text(out, own, wish, error);
+    out->format = name;
     return good;
   }
+  out->format = name;
   if (file.end - file.at < HEADER) {
     return sb_app_error_input(error, "is cut short: no header of %d file", HEADER);
   }
