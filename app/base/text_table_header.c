@@ -200,25 +200,6 @@ static void take_unit(SbTextTableColumn *column, char *unit) {
   *to = to != &unit ? unit : NULL;
 }
 
-// Takes units, or names with units, from a header line; the line nearest to the rows comes first.
-static void take_header_line(SbTextTable *table, char *const *cells, bool units_only) {
-  for (size_t k = 0; k < table->columns && cells[k] != NULL; k++) {
-    SbTextTableColumn *column = &table->column[k];
-    char *unit = NULL, *name = NULL, *inner = NULL;
-    if (units_only) {
-      take_unit(column, unit_text(cells[k], strlen(cells[k])));
-      continue;
-    }
-    split_name(&name, &unit, cells[k]);
-    take_unit(column, unit);
-    g_free(column->name);
-    column->name = name;
-    split_name(&name, &inner, column->name); // "Disp_mm [um]"
-    take_unit(column, inner);
-    g_free(name);
-  }
-}
-
 // Whether a line directly after a row names each column, with different texts ("OVER" in each names
 // none); of a comment or matrix, or with blanks between cells, with a unit, unlike a remark.
 static bool names_each(const SbTextTable *table, const GString *line, char *const *cells) {
@@ -278,21 +259,32 @@ void sb_text_table_take_header(SbTextTable *table) {
       stopped |= found[0] && cells[0] != NULL;
     } else {
       stopped = found[units];
-      if (!stopped || (units && found[0])) { // units above the names too
-        take_header_line(table, cells, units);
+      const bool use = !stopped || (units && found[0]); // units above the names too
+      for (size_t k = 0; use && k < table->columns && cells[k] != NULL; k++) {
+        SbTextTableColumn *column = &table->column[k];
+        char *unit = NULL, *name = NULL, *inner = NULL;
+        if (units) {
+          take_unit(column, unit_text(cells[k], strlen(cells[k])));
+          continue;
+        }
+        split_name(&name, &unit, cells[k]);
+        take_unit(column, unit);
+        g_free(column->name);
+        column->name = name;
+        split_name(&name, &inner, column->name); // "Disp_mm [um]"
+        take_unit(column, inner);
+        g_free(name);
       }
       found[units] = true;
     }
   }
-  GPtrArray *texts = g_ptr_array_new();
-  for (size_t i = 0; i < MIN(table->header_lines, HEADER_LINES); i++) {
+  const size_t lines = MIN(table->header_lines, HEADER_LINES);
+  table->header = g_new0(char *, lines + 1);
+  for (size_t i = 0; i < lines; i++) {
     g_autofree char *copy = g_strndup(sb_text_table_line(table, i)->str, HEADER_BYTES);
-    char *text = copy + strspn(copy, "#;%!/ \t");
-    g_strdelimit(text, "\t", ';');
-    g_ptr_array_add(texts, sb_printable(text, strlen(text)));
+    const char *text = g_strdelimit(copy + strspn(copy, "#;%!/ \t"), "\t", ';');
+    table->header[i] = sb_printable(text, strlen(text));
   }
-  g_ptr_array_add(texts, NULL);
-  table->header = (char **)g_ptr_array_free(texts, FALSE);
 }
 
 size_t sb_text_table_number_at(double *out, const char *text, char decimal) {

@@ -26,7 +26,7 @@ typedef struct {
 } Block;
 
 typedef struct {
-  SbDxfReader text;       // at its start
+  SbDxfReader text;       // at its start, then where an entity is read
   Block *model;           // the section ENTITIES
   GHashTable *blocks;     // name in lower case -> Block
   GHashTable *hidden;     // name of a layer in lower case -> why it is not seen
@@ -190,9 +190,8 @@ static bool place_block(Drawing *drawing, const Block *block, const SbDxfMap *wa
   bool good = true;
   drawing->placed++; // an empty block as well
   for (guint i = 0; good && i < block->items->len; i++) {
-    SbDxfReader reader = drawing->text;
-    reader.next = g_array_index(block->items, SbDxfItem, i);
-    good = sb_dxf_read_entity(&entity, &reader, error);
+    drawing->text.next = g_array_index(block->items, SbDxfItem, i);
+    good = sb_dxf_read_entity(&entity, &drawing->text, error);
     drawing->placed += depth > 0;
     if (good && drawing->placed > PLACED_MAX) {
       good = sb_app_error_input(
@@ -219,9 +218,8 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
   SbDxfEntity entity = {.type = ""};
   bool good = true;
   if (layer || (blocks && strcmp(type, "BLOCK") == 0)) {
-    SbDxfReader reader = drawing->text;
-    reader.next = *item;
-    good = sb_dxf_read_entity(&entity, &reader, error);
+    drawing->text.next = *item;
+    good = sb_dxf_read_entity(&entity, &drawing->text, error);
     char *key = g_ascii_strdown(entity.name, -1);
     if (layer) {
       const bool frozen = ((int)entity.number[70] & 1) != 0;

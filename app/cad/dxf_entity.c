@@ -104,7 +104,6 @@ bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error
   guint before = 0;
   bool in_vertex = false, vertex = true;
   while (vertex) {
-    const SbDxfItem here = reader->next;
     const bool more = sb_dxf_read_pair(reader, error);
     if (*error != NULL || (more && reader->code != 0 && !entity_take(entity, reader, error))) {
       return false;
@@ -121,9 +120,6 @@ bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error
     entity->number[70] = vertex ? 0 : flags;
     before = entity->list[SB_DXF_X]->len;
     in_vertex = vertex;
-    if (!vertex) {
-      reader->next = here;
-    }
   }
   return true;
 }

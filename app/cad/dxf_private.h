@@ -49,8 +49,8 @@ static inline bool sb_dxf_is(const SbDxfEntity *entity, const char *type) {
   return strcmp(entity->type, type) == 0;
 }
 
-// Reads an entity: from its type, the next pair of `reader`, up to the type after it (and after the
-// VERTEX entities of a POLYLINE), which is then the next pair. Frees the lists that `entity` had.
+// Reads an entity: from its type, the next pair of `reader`, to the type after it, the last one
+// read (after the VERTEX entities of a POLYLINE). Frees the lists that `entity` had.
 // Returns false at the end of the text, or with an error; `error` must not be NULL, *error is NULL.
 bool sb_dxf_read_entity(SbDxfEntity *entity, SbDxfReader *reader, GError **error);
 

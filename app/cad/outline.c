@@ -312,12 +312,11 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
 
 void sb_cad_section(SbCad *cad, SbCadBody *body, const GArray *pieces) {
   g_autoptr(SbCad) found = sb_cad_new("");
-  const SbCadChoices none = {0};
   const SbCadBody *best = NULL;
   guint count = 0;
   const gpointer all[] = {(gpointer)pieces};
   sb_cad_outlines(found, &(GPtrArray){(gpointer *)all, 1}, body->name, CUT);
-  sb_cad_settle(found, &none);
+  sb_cad_settle(found, &(const SbCadChoices){0});
   for (guint i = 0; i < found->bodies->len; i++) {
     const SbCadBody *one = found->bodies->pdata[i];
     count += one->profile->len > 0;

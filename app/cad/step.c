@@ -55,15 +55,13 @@ static char *run_helper(const char *path, const SbCadChoices *choices, GError **
 }
 
 static bool read_numbers(double *out, int count, const char *text) {
-  for (int i = 0; i < count; i++) {
+  size_t length = 1;
+  for (int i = 0; i < count && length > 0; i++) {
     text += strspn(text, " ");
-    const size_t length = sb_number_read(&out[i], text);
-    if (length == 0) {
-      return false;
-    }
+    length = sb_number_read(&out[i], text);
     text += length;
   }
-  return *text == '\0';
+  return length > 0 && *text == '\0';
 }
 
 // Fills `cad` from the helper's lines; false where they are not complete.

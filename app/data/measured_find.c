@@ -193,19 +193,16 @@ static void find_compliance(SbMeasured *m, const Rise *rise) {
   }
 }
 
-static bool read_pair(double *place, double *load, const char *text) {
-  g_auto(GStrv) parts = g_strsplit(text, ",", -1);
-  return g_strv_length(parts) == 2 &&
-         sb_quantity_parse(place, g_strstrip(parts[0]), "m", "mm", NULL) &&
-         sb_quantity_parse(load, g_strstrip(parts[1]), "N", "N", NULL);
-}
-
 static bool find_zero(SbMeasured *m, const SbData *data, GPtrArray *issues) {
   const Rise rise = find_rise(m, m->first);
   const char *zero = data->text[SB_DATA_ZERO], *compliance = data->text[SB_DATA_COMPLIANCE];
   if (zero != NULL) {
     m->zero = m->force_zero = SB_HOW_SAID;
-    if (strcmp(zero, "as-is") != 0 && !read_pair(&m->at_rest, &m->no_load, zero)) {
+    g_auto(GStrv) parts = g_strsplit(zero, ",", -1);
+    if (strcmp(zero, "as-is") != 0 &&
+        !(g_strv_length(parts) == 2 &&
+          sb_quantity_parse(&m->at_rest, g_strstrip(parts[0]), "m", "mm", NULL) &&
+          sb_quantity_parse(&m->no_load, g_strstrip(parts[1]), "N", "N", NULL))) {
       return sb_data_add_issue(data, SB_DATA_ZERO, "as-is, or as in 0.31 mm, 0.2 N", issues,
                                "\"%s\" is not such a pair", zero);
     }

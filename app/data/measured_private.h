@@ -8,10 +8,9 @@
 #include <string.h>
 
 // Second half of reading a file. On entry `measured` has its columns and rows in SI as the file has
-// them: count, time, displacement (crosshead reading) and force; all later fields are 0. Reverses
-// signs, finds cycles (creates measured->cycle), zero, compliance and noise, corrects the rows in
-// place, and finds the stages. Keys of `data` (direction, zero, compliance, cycle) replace what
-// would be found. Returns false with at least one issue; the rows may then be partly corrected.
+// them: count, time, displacement (crosshead reading) and force; all later fields are 0. Fills them
+// and corrects the rows in place. Returns false with at least one issue; the rows may then be
+// partly corrected.
 bool sb_measured_find(SbMeasured *measured, const SbData *data, GPtrArray *issues);
 
 // Returns the rows of cycle `index`, from 0, below measured->cycle->len; borrowed.

@@ -19,7 +19,7 @@ static char *field(const guchar *p, gsize size) {
 static bool read_spacing(double *out, const guchar *h, int axis, GError **error) {
   g_autofree char *unit = field(h + 180 + 16 * axis, 16);
   const double step = sb_bytes_float(h + 120 + 4 * axis);
-  *out = step * sb_scan_length(unit);
+  *out = (axis < 2 ? fabs(step) : step) * sb_scan_length(unit);
   return (isfinite(*out) && *out != 0) ||
          sb_app_error_input(error, "the spacing along %c, %g \"%s\", is not a length", "xyz"[axis],
                             step, unit);
@@ -53,8 +53,6 @@ bool sb_scan_parse_sur(SbScan *out, SbScanBytes file, const SbScanChoices *wish,
                          absent, error)) {
     return false;
   }
-  out->heights.dx = fabs(out->heights.dx);
-  out->heights.dy = fabs(out->heights.dy);
   out->title = field(h + 20, 30);
   if (sb_bytes_u16(h + 290) != 0) {
     sb_note_add(out->notes, "the header says that heights were inverted; they are used unchanged");

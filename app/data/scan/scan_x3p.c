@@ -168,15 +168,14 @@ static bool read_points(SbScan *out, GHashTable *texts, zip_t *zip, size_t packe
   }
   const size_t points = (size_t)columns * (size_t)rows;
   size_t got = 0, valid_got = 0;
+  const bool voids = *valid_link != '\0';
   g_autofree guchar *data = member(zip, link, &got, 8 * points, packed, error);
-  g_autofree guchar *valid = NULL;
-  if (data != NULL && *valid_link != '\0') {
-    valid = member(zip, valid_link, &valid_got, points, packed, error);
-    if (valid != NULL && valid_got < (points + 7) / 8) {
-      return sb_app_error_input(error, "its valid points are cut short");
-    }
+  g_autofree guchar *valid =
+      data != NULL && voids ? member(zip, valid_link, &valid_got, points, packed, error) : NULL;
+  if (valid != NULL && valid_got < (points + 7) / 8) {
+    return sb_app_error_input(error, "its valid points are cut short");
   }
-  if (data == NULL || (valid == NULL && *valid_link != '\0') ||
+  if (data == NULL || (valid == NULL && voids) ||
       !sb_scan_take_grid(out, (size_t)columns, (size_t)rows, kinds[known - types],
                          (SbScanBytes){data, data + got}, step, NAN, error)) {
     return false;
