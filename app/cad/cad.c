@@ -136,9 +136,7 @@ static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
     g_array_set_size(body->profile, 0);
     return;
   }
-  if (!body->measured) {
-    body->solid = body->revolved;
-  }
+  body->solid = body->measured ? body->solid : body->revolved;
   add_features(body);
 }
 

@@ -227,11 +227,10 @@ static bool read_record(Drawing *drawing, const char *section, const char *type,
       g_hash_table_replace(drawing->hidden, key, (char *)state);
       g_hash_table_replace(drawing->line_types, g_strdup(key), g_strdup(entity.line_type));
     } else {
-      *open = g_new0(Block, 1);
-      (*open)->items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
-      (*open)->elsewhere = ((int)entity.number[70] & (4 | 8)) != 0; // also as an overlay
-      (*open)->base[0] = entity.number[10];
-      (*open)->base[1] = entity.number[20];
+      const bool elsewhere = ((int)entity.number[70] & (4 | 8)) != 0; // also as an overlay
+      GArray *items = g_array_new(FALSE, FALSE, sizeof(SbDxfItem));
+      const Block block = {{entity.number[10], entity.number[20]}, elsewhere, items};
+      *open = g_memdup2(&block, sizeof block);
       g_hash_table_replace(drawing->blocks, key, *open);
     }
   } else if (blocks && strcmp(type, "ENDBLK") == 0) {

@@ -241,11 +241,9 @@ static void add_outline(GPtrArray *outlines, const Graph *graph, const guint *cy
     }
   }
   if (fabs(area) > gap * length) {
-    SbCadOutline *outline = g_new(SbCadOutline, 1);
-    const guint own = cycle[first % count] / 2;
-    *outline = (SbCadOutline){g_steal_pointer(&chain), closed,
-                              g_array_index(graph->edges, Drawn, own).part, false};
-    g_ptr_array_add(outlines, outline);
+    const guint part = g_array_index(graph->edges, Drawn, cycle[first % count] / 2).part;
+    const SbCadOutline outline = {g_steal_pointer(&chain), closed, part, false};
+    g_ptr_array_add(outlines, g_memdup2(&outline, sizeof outline));
   }
 }
 

@@ -141,17 +141,6 @@ static void place(SbStl *stl, const double frame[3][3], const double *through) {
   }
 }
 
-// Where an edge crosses the plane; from its lower vertex on, so that both facets find the same.
-static void pierce(double xu[2], const SbStl *stl, unsigned a, unsigned b, double c, double s) {
-  const double *p = stl->vertices + 3 * (gsize)MIN(a, b);
-  const double *q = stl->vertices + 3 * (gsize)MAX(a, b);
-  const double off = p[2] * c - p[1] * s;
-  const double t = off / (off - (q[2] * c - q[1] * s));
-  const double up = p[1] * c + p[2] * s, uq = q[1] * c + q[2] * s;
-  xu[0] = p[0] + t * (q[0] - p[0]);
-  xu[1] = up + t * (uq - up);
-}
-
 // Cuts the facets of a body by the half-plane at `angle`. Writes the volume of the pieces,
 // revolved.
 static GArray *cut(double *volume, const SbStl *stl, const Shell *shell, double angle) {
@@ -169,7 +158,14 @@ static GArray *cut(double *volume, const SbStl *stl, const Shell *shell, double 
     }
     for (int k = 0; k < 3 && found < 2; k++) {
       if (behind[k] != behind[(k + 1) % 3]) {
-        pierce(at[behind[k]], stl, corner[k], corner[(k + 1) % 3], c, s);
+        // From the edge's lower vertex on, so that both facets find the same.
+        const unsigned a = corner[k], b = corner[(k + 1) % 3];
+        const double *p = stl->vertices + 3 * (gsize)MIN(a, b);
+        const double *q = stl->vertices + 3 * (gsize)MAX(a, b);
+        const double off = p[2] * c - p[1] * s, t = off / (off - (q[2] * c - q[1] * s));
+        const double up = p[1] * c + p[2] * s, uq = q[1] * c + q[2] * s;
+        at[behind[k]][0] = p[0] + t * (q[0] - p[0]);
+        at[behind[k]][1] = up + t * (uq - up);
         found++;
       }
     }

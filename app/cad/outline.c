@@ -272,7 +272,7 @@ static void note_half(SbCad *cad, const char *name, const SbCadLines *half, cons
 }
 
 void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, double gap) {
-  guint pieces = 0, made = 0;
+  guint pieces = 0;
   for (guint i = 0; i < entities->len; i++) {
     pieces += ((const GArray *)entities->pdata[i])->len;
   }
@@ -290,7 +290,7 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
   note_half(cad, name, &half[used], &half[1 - used], gap);
   for (guint i = 0; i < half[used].outlines->len && cad->bodies->len < SB_CAD_BODIES_MAX; i++) {
     const SbCadOutline *outline = half[used].outlines->pdata[i];
-    g_autofree char *own = made > 0 ? g_strdup_printf("%s %u", name, made + 1) : g_strdup(name);
+    g_autofree char *own = i > 0 ? g_strdup_printf("%s %u", name, i + 1) : g_strdup(name);
     SbCadBody *body = sb_cad_body_new(own);
     body->layer = first;
     if (outline->unsure) {
@@ -300,7 +300,6 @@ void sb_cad_outlines(SbCad *cad, const GPtrArray *entities, const char *name, do
     } else {
       to_profile(body, outline->chain, outline->closed);
     }
-    made++;
     g_ptr_array_add(cad->bodies, body);
   }
   for (int k = 0; k < 2; k++) {

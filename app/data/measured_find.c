@@ -275,9 +275,8 @@ static void find_noise(SbMeasured *m) {
     }
   }
   m->noise = count >= 8 ? sb_number_median(value, count) / (0.6745 * sqrt(6)) : NAN;
-  if (m->no_load_rows > 0 && isfinite(m->noise)) {
-    m->no_load_deviation = m->noise / sqrt((double)m->no_load_rows);
-  }
+  const bool known = m->no_load_rows > 0 && isfinite(m->noise);
+  m->no_load_deviation = known ? m->noise / sqrt((double)m->no_load_rows) : 0;
 }
 
 enum { BINS = 160 };
@@ -362,9 +361,8 @@ static bool find_ramp(double *p, double *q, double coefficient[3], const Means *
 // Finds the stages C and F of a cycle whose greatest displacement is `stroke` [m]: the upper ends
 // of its ramps, or the reason why there are none.
 static void find_ramps(SbMeasured *m, const SbMeasuredCycle *cycle, double stroke) {
-  static const SbStage stages[2] = {SB_STAGE_C, SB_STAGE_F};
   for (int way = 0; way < 2; way++) {
-    SbMeasuredStage *stage = &m->stage[stages[way]];
+    SbMeasuredStage *stage = &m->stage[way == 0 ? SB_STAGE_C : SB_STAGE_F];
     const double low = 0.02 * stroke, high = 0.98 * stroke;
     const Means means = means_of(m, way == 0 ? cycle->begin : cycle->turn,
                                  way == 0 ? cycle->turn : cycle->end, low, high);

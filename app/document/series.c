@@ -125,10 +125,9 @@ static bool read_table(SbModelSeries *out, SbSeriesKind kind, const SbTextTable 
 bool sb_series_read(SbModelSeries *out, SbSeriesKind kind, const char *text, size_t length,
                     const char *path, GPtrArray *issues) {
   out->count = 0;
-  g_autofree char *own = NULL;
-  if (text == NULL) {
-    text = own = sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues);
-  }
+  g_autofree char *own =
+      text == NULL ? sb_reader_load(&length, path, path, SB_SERIES_BYTES_MAX, issues) : NULL;
+  text = text != NULL ? text : own;
   g_autoptr(SbTextTable) table =
       text != NULL ? sb_text_table_parse(text, length, NULL, path, issues) : NULL;
   const bool good = table != NULL && read_table(out, kind, table, path, issues);

@@ -474,9 +474,8 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes file, const SbScanChoices *wish
   g_autoptr(SbTextTable) table =
       sb_text_table_parse(file.at, (gsize)(file.end - file.at), &form, "", issues);
   Text text = {.entries = entries, .table = table, .use = {0, 1, 2}};
-  const bool read = table != NULL &&
-                    sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues);
-  if (!read) {
+  if (table == NULL ||
+      !sb_text_table_read_matrix(&text.matrix, table, SB_HEIGHTS_POINTS_MAX, issues)) {
     const SbIssue *issue = issues->pdata[0];
     return issue->choice.key != NULL || issue->line > 0
                ? sb_issue_error(error, issue)
@@ -492,7 +491,6 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes file, const SbScanChoices *wish
                 text.matrix.other, text.matrix.other_line);
   }
   text.axes = text.matrix.columns;
-  const bool good = read_entry_text(out, &text, wish, error);
-  g_array_unref(text.matrix.value);
-  return good;
+  g_autoptr(GArray) value = text.matrix.value;
+  return read_entry_text(out, &text, wish, error);
 }
