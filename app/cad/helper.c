@@ -333,16 +333,15 @@ static bool print_edges(int face) {
   bool good = ierr == 0;
   g_autoptr(GArray) pieces = g_array_new(FALSE, FALSE, sizeof(SbPiece));
   for (size_t i = 0; good && i + 1 < count; i += 2) {
-    Edge edge = {.tag = edges[i + 1]};
+    const int tag = edges[i + 1];
     double *low = NULL, *high = NULL;
     size_t n_low = 0, n_high = 0;
-    gmshModelGetParametrizationBounds(1, edge.tag, &low, &n_low, &high, &n_high, &ierr);
+    gmshModelGetParametrizationBounds(1, tag, &low, &n_low, &high, &n_high, &ierr);
     good = ierr == 0 && n_low == 1 && n_high == 1;
     if (good) {
-      edge.low = low[0];
-      edge.high = high[0];
+      const Edge edge = {tag, low[0], high[0]};
       char *type = NULL;
-      gmshModelGetType(1, edge.tag, &type, &ierr);
+      gmshModelGetType(1, tag, &type, &ierr);
       const bool plain = ierr == 0 && (strcmp(type, "Line") == 0 || strcmp(type, "Circle") == 0);
       gmshFree(type);
       good = sb_cad_curve(pieces, edge_at, &edge, plain ? 1 : 4);

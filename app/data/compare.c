@@ -108,30 +108,10 @@ SbMeasuredPoint *sb_measured_points(size_t *count, const SbMeasured *m, size_t c
   return out;
 }
 
-static void find_band(SbMeasuredBand *out, const SbMeasured *m) {
-  for (size_t c = m->first; c <= m->last; c++) {
-    out->end = fmax(out->end, m->displacement[sb_measured_cycle(m, c)->turn] * (1 + 1e-9));
-  }
-  for (int i = 0; i < 4 * SB_MEASURED_BAND; i++) {
-    out->force[i / 2 / SB_MEASURED_BAND][i / 2 % SB_MEASURED_BAND][i % 2] = NAN;
-  }
-  for (size_t c = m->first; c <= m->last; c++) {
-    const SbMeasuredCycle *cycle = sb_measured_cycle(m, c);
-    for (size_t i = cycle->begin; i < cycle->end; i++) {
-      int way;
-      if (slides(&way, m, cycle, i)) {
-        double *force = out->force[way][(int)(m->displacement[i] / out->end * SB_MEASURED_BAND)];
-        force[0] = fmin(m->force[i], force[0]); // of NaN the other
-        force[1] = fmax(m->force[i], force[1]);
-      }
-    }
-  }
-}
-
-SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loop) {
+SbComparison *sb_comparison_create(const SbMeasured *m, const SbLoop *loop) {
   SbComparison *out = g_new0(SbComparison, 1);
-  out->measured = measured;
-  out->point = sb_measured_points(&out->count, measured, SB_COMPARISON_POINTS);
+  out->measured = m;
+  out->point = sb_measured_points(&out->count, m, SB_COMPARISON_POINTS);
   out->residual = g_new(double, out->count + 1);
   double rows = 0, sum = 0, square = 0;
   out->most = NAN;
@@ -153,8 +133,24 @@ SbComparison *sb_comparison_create(const SbMeasured *measured, const SbLoop *loo
   memcpy(out->model_displacement, loop->stage_displacement, sizeof loop->stage_displacement);
   memcpy(out->model_force, loop->stage_force, sizeof loop->stage_force);
   memcpy(out->model_error, loop->stage_error, sizeof loop->stage_error);
-  if (measured->last > measured->first) {
-    find_band(&out->band, measured);
+  SbMeasuredBand *band = &out->band;
+  const size_t cycles = m->last > m->first ? m->last + 1 : 0; // of one there is no scatter
+  for (size_t c = m->first; c < cycles; c++) {
+    band->end = fmax(band->end, m->displacement[sb_measured_cycle(m, c)->turn] * (1 + 1e-9));
+  }
+  for (int i = 0; i < 4 * SB_MEASURED_BAND; i++) {
+    band->force[i / 2 / SB_MEASURED_BAND][i / 2 % SB_MEASURED_BAND][i % 2] = NAN;
+  }
+  for (size_t c = m->first; c < cycles; c++) {
+    const SbMeasuredCycle *cycle = sb_measured_cycle(m, c);
+    for (size_t i = cycle->begin; i < cycle->end; i++) {
+      int way;
+      if (slides(&way, m, cycle, i)) {
+        double *force = band->force[way][(int)(m->displacement[i] / band->end * SB_MEASURED_BAND)];
+        force[0] = fmin(m->force[i], force[0]); // of NaN the other
+        force[1] = fmax(m->force[i], force[1]);
+      }
+    }
   }
   return out;
 }

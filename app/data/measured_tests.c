@@ -5,12 +5,11 @@
 #include "app/data/measured_words.def"
 #undef SB_WORDS
 
-// Makes the forces of blocks behind a blank line, names or a label that do not continue the table
-// not a number. Two of these are true of them: the time goes back; the displacement jumps further
-// than between rows of a long block; there are too few rows for a loop. The shorter side of the
-// line is dropped. A block whose time, or without time whose displacement, goes back is another
-// test. Where the time begins again, a block begins; a first row beyond all others, as of full
-// scales, is one.
+// Blocks behind a blank line, names or a label do not continue the table where two of these are
+// true: the time goes back; the displacement jumps further than between rows of a long block; there
+// are too few rows for a loop. The shorter side of the line is dropped. A block whose time, or
+// without time whose displacement, goes back is another test. Where the time begins again, a block
+// begins; a first row beyond all others, as of full scales, is one.
 void sb_measured_tests(SbMeasured *m, const SbTextTable *table, double *block) {
   const double *time = m->time, *place = m->displacement;
   double step = 0, more = 0;

@@ -6,7 +6,6 @@
 #include <gsl/gsl_statistics_double.h>
 
 #include <math.h>
-#include <string.h>
 
 static void add_cutoff(SbScanFigures *out, double cutoff_short, double cutoff_long) {
   if (out->cutoff_count < SB_SCAN_CUTOFFS_MAX) {
@@ -30,21 +29,6 @@ static void find_cutoffs(SbScanFigures *out, const SbHeights *h) {
   for (double cutoff = length / 2; cutoff >= 16 * step; cutoff /= 2) {
     add_cutoff(out, 0, cutoff);
   }
-}
-
-static SbStatus find_parts(SbScanFigures *out, const SbHeights *h, SbReport *report) {
-  enum { PART_SIDE = 64 };
-  const size_t shorter = h->rows > 1 && h->rows < h->columns ? h->rows : h->columns;
-  const int side = shorter >= 3 * PART_SIDE ? 3 : shorter >= 2 * PART_SIDE ? 2 : 0;
-  out->part_columns = side;
-  out->part_rows = h->rows > 1 || side == 0 ? side : 1;
-  SbStatus status = SB_OK;
-  for (int k = 0; k < out->part_rows * out->part_columns && status == SB_OK; k++) {
-    const SbHeights part = sb_heights_part(h, (size_t)(k / side), (size_t)out->part_rows,
-                                           (size_t)(k % side), (size_t)out->part_columns);
-    status = sb_height_figures(&out->part[k], &part, report);
-  }
-  return status;
 }
 
 SbScanScatter sb_scan_scatter(const SbScanFigures *from, double (*value)(const SbHeightFigures *)) {
@@ -116,11 +100,21 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
 
 SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
                          SbReport *report) {
-  memset(out, 0, sizeof *out);
+  enum { PART_SIDE = 64 };
+  *out = (SbScanFigures){0};
   SbStatus status = sb_heights_prepare(&out->done, heights, choices, report);
   status = status == SB_OK ? sb_height_figures(&out->figures, heights, report) : status;
   status = status == SB_OK ? sb_height_spectrum(&out->spectrum, heights, report) : status;
-  status = status == SB_OK ? find_parts(out, heights, report) : status;
+  const size_t rows = heights->rows, columns = heights->columns;
+  const size_t shorter = rows > 1 && rows < columns ? rows : columns;
+  const int side = shorter >= 3 * PART_SIDE ? 3 : shorter >= 2 * PART_SIDE ? 2 : 0;
+  out->part_columns = side;
+  out->part_rows = rows > 1 || side == 0 ? side : 1;
+  for (int k = 0; k < out->part_rows * side && status == SB_OK; k++) {
+    const SbHeights part = sb_heights_part(heights, (size_t)(k / side), (size_t)out->part_rows,
+                                           (size_t)(k % side), (size_t)side);
+    status = sb_height_figures(&out->part[k], &part, report);
+  }
   if (status == SB_OK) {
     out->scene = sb_asperities_of_moments(out->figures.moment, false);
     find_cutoffs(out, heights);
