@@ -117,7 +117,8 @@ bool sb_text_table_void(const SbTextTableCell *cell) {
   static const char *const words[] = {"",       "nan",     "-nan", "bad",     "void",    "nodata",
                                       "null",   "inf",     "-inf", "*",       "***",     "---",
                                       "masked", "no data", "n/a",  "1.#qnan", "-1.#ind", NULL};
-  g_autofree char *text = g_ascii_strdown(cell->text, (gssize)cell->length);
+  const gssize length = cell->length <= strlen("no data") ? (gssize)cell->length : 0; // the longest
+  g_autofree char *text = g_ascii_strdown(cell->text, length);
   return strlen(text) == cell->length && g_strv_contains(words, text);
 }
 
