@@ -118,8 +118,8 @@ static const char *split_lines(SbTextTableFile *file, const char *bytes, size_t 
 }
 
 // Takes lines from the start and, behind them, from three places, the last one at the end.
-static Sample take_sample(const GArray *lines) {
-  Sample sample = {.line = g_array_new(FALSE, FALSE, sizeof(GString))};
+static Sample take_sample(GArray *taken, const GArray *lines) {
+  Sample sample = {.line = taken};
   for (size_t part = 0; part <= 3; part++) {
     const size_t end = lines->len - MIN(lines->len, SAMPLE_TAIL);
     size_t i = MIN(part * (lines->len / 3), end),
@@ -129,7 +129,7 @@ static Sample take_sample(const GArray *lines) {
       GString line = g_array_index(lines, GString, i);
       bytes += line.len + 1;
       line.len = MIN(line.len, LINE_BYTES);
-      g_array_append_val(sample.line, line);
+      g_array_append_val(taken, line);
       sample.head += part == 0;
       sample.quoted |= memchr(line.str, '"', line.len) != NULL;
     }
@@ -427,8 +427,8 @@ SbTextTable *sb_text_table_parse(const void *bytes, size_t length, const SbTextT
                   format != NULL ? "is %s: export it as text, such as CSV" : "%s", wrong);
     return NULL;
   }
-  const Sample sample = take_sample(file->line);
-  g_autoptr(GArray) lines = sample.line;
+  g_autoptr(GArray) taken = g_array_new(FALSE, FALSE, sizeof(GString));
+  const Sample sample = take_sample(taken, file->line);
   return recognise(table, &sample, wish, issues) ? g_steal_pointer(&table) : NULL;
 }
 

@@ -491,6 +491,7 @@ bool sb_scan_parse_text(SbScan *out, SbScanBytes file, const SbScanChoices *wish
                 text.matrix.other, text.matrix.other_line);
   }
   text.axes = text.matrix.columns;
-  g_autoptr(GArray) value = text.matrix.value;
-  return read_entry_text(out, &text, wish, error);
+  const bool good = read_entry_text(out, &text, wish, error);
+  g_array_unref(text.matrix.value);
+  return good;
 }
