@@ -6,6 +6,7 @@
 #include <gsl/gsl_statistics_double.h>
 
 #include <math.h>
+#include <string.h>
 
 static void add_cutoff(SbScanFigures *out, double cutoff_short, double cutoff_long) {
   if (out->cutoff_count < SB_SCAN_CUTOFFS_MAX) {
@@ -101,7 +102,7 @@ static void warn(SbScanFigures *out, const SbHeights *h, const SbHeightsChoices 
 SbStatus sb_scan_figures(SbScanFigures *out, SbHeights *heights, const SbHeightsChoices *choices,
                          SbReport *report) {
   enum { PART_SIDE = 64 };
-  *out = (SbScanFigures){0};
+  memset(out, 0, sizeof *out); // too large for a temporary on a small stack
   SbStatus status = sb_heights_prepare(&out->done, heights, choices, report);
   status = status == SB_OK ? sb_height_figures(&out->figures, heights, report) : status;
   status = status == SB_OK ? sb_height_spectrum(&out->spectrum, heights, report) : status;
