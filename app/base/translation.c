@@ -3,6 +3,8 @@
 // their own.
 #include "app/base/translation.h"
 
+#include "app/base/beside.h"
+
 #include <glib/gi18n.h>
 #include <string.h>
 
@@ -40,19 +42,11 @@ char *sb_translation_inside(const char *label) {
   return translated == label ? g_utf8_strdown(label, -1) : g_strdup(translated);
 }
 
-// The folder of the translations: beside the program as it was installed, wherever that was moved
-// to, or, while it runs from where it was built, the build's own.
+// The folder of the translations: relative to the program as it was installed, wherever it was
+// moved to, or, while it runs from where it was built, the build's own.
 static char *locale_folder(void) {
-  g_autofree char *program = g_file_read_link("/proc/self/exe", NULL);
-  g_autofree char *in = g_path_get_dirname(program != NULL ? program : "/");
-  static const char *const built[] = {"po", "../po"};
-  for (size_t i = 0; i < G_N_ELEMENTS(built); i++) {
-    g_autofree char *folder = g_build_filename(in, built[i], NULL);
-    if (g_file_test(folder, G_FILE_TEST_IS_DIR)) {
-      return g_steal_pointer(&folder);
-    }
-  }
-  return g_build_filename(in, SB_LOCALE_FROM_PROGRAM, NULL);
+  static const char *const places[] = {"po", "../po", SB_LOCALE_FROM_PROGRAM, NULL};
+  return sb_beside_program(places, ".");
 }
 
 void sb_translation_begin(void) {

@@ -13,9 +13,9 @@
 // along the radius too (Hertz and Michell). The printed loads are between the two.
 //
 // The thesis prints the width as d sin(n + 1/2 deg) with the free d, quantised to 0.023 mm. A
-// contact that has less than four of its nodes on a side gets nodes at half of their distance until
-// it has; one that reaches 75 degrees has no solution here. Not modelled: the groove wall, the
-// normal direction of fluid pressure, finite strain. Compared with a finite-strain ring its
+// contact that has fewer than four of its nodes on a side gets nodes at half of their distance
+// until it has; one that reaches 75 degrees has no solution here. Not modelled: the groove wall,
+// the normal direction of fluid pressure, finite strain. Compared with a finite-strain ring its
 // pressurised loads are 8-9 % low and its widths 7-20 % high.
 //
 // Internally, lengths are divided by the fitted radius, and pressures multiplied by C.
