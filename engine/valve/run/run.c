@@ -226,6 +226,15 @@ static void clear_motion(SbRun *run, const char *why) {
   sb_reason(summary, "solver.error_estimate.energy", "%s", why);
 }
 
+// As sb_run_fail_at(), at the stem's last frame.
+static SbStatus fail_at_last(const SbRun *run, SbReport *report, SbStatus status,
+                             const char *solver, const SbReport *cause, const char *available) {
+  const SbFrame *last = &run->frames[run->count - 1];
+  const SbRunPlace place = {solver,     "stem",   (SbStage)last->stage, last->displacement,
+                            last->time, available};
+  return sb_run_fail_at(report, status, &place, cause);
+}
+
 SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
   static const char *const names[] = {"quasi-static", "dynamic", "rig", "bodies"};
   SbSummary *summary = &run->summary;
@@ -242,13 +251,11 @@ SbStatus sb_run_move(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
                      summary->energy.closure);
   }
   if (status == SB_ERROR_NOT_CONVERGED && run->count > 0) {
-    const SbFrame *last = &run->frames[run->count - 1];
-    SbReport cause = own;
-    (void)sb_fail_input(&own, status, cause.input,
-                        "motion (%s), both seals, stage %s, stem at %.4g mm, %.4g s: %s; "
-                        "available: the seals, the frames and stages before",
-                        names[run->model->motion], sb_stage_name((SbStage)last->stage),
-                        1e3 * last->displacement, last->time, cause.text);
+    const SbReport cause = own;
+    char solver[60];
+    snprintf(solver, sizeof solver, "motion (%s), both seals", names[run->model->motion]);
+    (void)fail_at_last(run, &own, status, solver, &cause,
+                       "the seals, the frames and stages before");
   }
   if (status != SB_OK) {
     clear_motion(run, status == SB_ERROR_CANCELLED ? "the run was stopped before" : own.text);
@@ -391,14 +398,10 @@ static void assert_no_contradiction(const SbRun *run) {
 static SbStatus name_spent(const SbRun *run, SbReport *report) {
   SbReport cause;
   const SbStatus status = sb_work_status(run->work, SB_ERROR_CANCELLED, &cause);
-  const SbFrame *last = run->count > 0 ? &run->frames[run->count - 1] : NULL;
-  return last == NULL
+  return run->count == 0
              ? sb_fail_input(report, status, cause.input, "%s", cause.text)
-             : sb_fail_input(report, status, cause.input,
-                             "motion (its error estimate), both seals, stage %s, stem at %.4g "
-                             "mm, %.4g s: %s; available: the seals and the motion",
-                             sb_stage_name((SbStage)last->stage), 1e3 * last->displacement,
-                             last->time, cause.text);
+             : fail_at_last(run, report, status, "motion (its error estimate), both seals", &cause,
+                            "the seals and the motion");
 }
 
 SbStatus sb_run_execute(SbRun *run, const SbRunHooks *hooks, SbReport *report) {

@@ -13,6 +13,7 @@
 // smaller tolerance. From the instant at which a film fails its frames have none. Not
 // modelled: the land's edge under the contact, and the step of the pressures themselves.
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 #include "engine/film/transient.h"
@@ -239,12 +240,11 @@ SbStatus sb_run_film_history(SbRun *run, size_t count, const SbRunHooks *hooks, 
       worst = sb_fail(report, status, "%s", own.text);
     } else if (status != SB_OK) {
       SbFrame *at = &run->frames[history.frame];
-      (void)sb_fail(
-          &whole, status,
-          "film (in time), %s seal, stage %s, stem at %.4g mm, %.4g s: %s; available: the "
-          "films before, the motion",
-          sb_seal_name(seal), sb_stage_name((SbStage)at->stage), 1e3 * at->displacement, at->time,
-          own.text);
+      char solver[60];
+      snprintf(solver, sizeof solver, "film (in time), %s seal", sb_seal_name(seal));
+      const SbRunPlace place = {solver,           "stem",   (SbStage)at->stage,
+                                at->displacement, at->time, "the films before, the motion"};
+      (void)sb_run_fail_at(&whole, status, &place, &own);
       sb_warn_serious(&summary->warnings, "film-history", sb_input(SB_P_MODELS_FILM_TIME), "%s",
                       whole.text);
       for (; at < run->frames + count; at++) {

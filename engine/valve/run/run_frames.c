@@ -152,3 +152,11 @@ void sb_run_fill_frame(SbFrame *out, SbRun *run, const SbInstant *at) {
     fill_seal(&out->seal[seal], run, seal, at);
   }
 }
+
+SbStatus sb_run_fail_at(SbReport *report, SbStatus status, const SbRunPlace *place,
+                        const SbReport *cause) {
+  return sb_fail_input(report, status, cause->input,
+                       "%s, stage %s, %s at %.4g mm, %.4g s: %s; available: %s", place->solver,
+                       sb_stage_name(place->stage), place->mover, 1e3 * place->position,
+                       place->time, cause->text, place->available);
+}

@@ -333,6 +333,19 @@ void sb_run_leakage(SbSummary *summary, const SbModel *model, const SbBore *bore
 // happen, or to a seal that is open: by the outcome and by the outer seal's state (run_outcome.c).
 void sb_run_leave_out(SbRun *run);
 
+// Where a computation ended, for a report.
+typedef struct {
+  const char *solver; // and its seals: "motion (dynamic), both seals"
+  const char *mover;  // "stem" or "plate"
+  SbStage stage;
+  double position, time; // of the mover [m], [s]
+  const char *available; // results: "the films before"
+} SbRunPlace;
+
+// Returns `status` with a report on it that adds the place to `cause` (run_frames.c).
+SbStatus sb_run_fail_at(SbReport *report, SbStatus status, const SbRunPlace *place,
+                        const SbReport *cause);
+
 // Sets the reasons of all other missing figures, by the chosen models, and the `status` and
 // `report` of the run. All figures must be set before (run_figures.c).
 void sb_run_set_reasons(SbRun *run, SbStatus status, const SbReport *report);

@@ -103,12 +103,10 @@ static SbStatus name_end(const SbRun *run, const SbDynamics *motion, size_t coun
     return status;
   }
   const SbReport cause = *report;
-  return sb_fail_input(
-      report, status, cause.input,
-      "motion (rig), stage %s, plate at %.4g mm, %.4g s: %s; available: the "
-      "samples before",
-      sb_stage_name(count > 0 ? (SbStage)run->frames[count - 1].stage : SB_STAGE_A),
-      1e3 * motion->at.x, motion->now, cause.text);
+  const SbStage stage = count > 0 ? (SbStage)run->frames[count - 1].stage : SB_STAGE_A;
+  const SbRunPlace place = {"motion (rig)", "plate",     stage,
+                            motion->at.x,   motion->now, "the samples before"};
+  return sb_run_fail_at(report, status, &place, &cause);
 }
 
 SbStatus sb_run_rig(SbRun *run, const SbRunHooks *hooks, SbReport *report) {
