@@ -10,8 +10,9 @@
 enum { LEAST_FILM, CENTRAL_FILM, LAYER, AREA, LOAD, VISCOUS, SHARE };
 
 // A cell of two decades has GRID positions; after DEPTH halvings its nodes are still on the grid.
-// Four cells extend from 10 m/s to below the lowest speed.
-enum { DEPTH = 4, GRID = 4 << DEPTH, WIDE = 4 };
+// Four cells extend from 10 m/s to below the lowest speed. A cell with a state that has no solution
+// is halved to UNSOLVED only: a try without a solution costs as much as a hundred solutions.
+enum { DEPTH = 4, GRID = 4 << DEPTH, WIDE = 4, UNSOLVED = GRID / 8 };
 
 static const double decades = 2;
 
@@ -281,7 +282,8 @@ static const SbSpeedCell *cell_at(SbSpeedStates *states, double place) {
       }
     }
     miss = cell.usable ? miss_of(states, &cell, true) : (Miss){.most = NAN};
-    if (miss.most <= SB_SPEED_TOLERANCE || cell.width == 4 || states->status != SB_OK) {
+    if (miss.most <= SB_SPEED_TOLERANCE || cell.width <= (cell.usable ? 4 : UNSOLVED) ||
+        states->status != SB_OK) {
       break;
     }
     cell.width /= 2;
