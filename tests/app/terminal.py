@@ -415,7 +415,7 @@ def test_plots():
         screen = terminal.see(r'B 28\.7')
         if not drawn.search(screen):
             raise AssertionError(f'no chart on a terminal\n{screen}')
-        terminal.keys(f'clear; {PROGRAM} run {scene} --no-plot; echo end', 'Enter')
+        terminal.keys(f'clear; {PROGRAM} run {scene} --no-plot; echo e\\nd', 'Enter')
         if drawn.search(terminal.see(r'(?m)^end')):
             raise AssertionError('a chart in spite of --no-plot')
 
