@@ -54,6 +54,8 @@ import time
 
 from page import PROGRAM, Page, difference, rewritten
 
+DISPLAY = [os.path.join(os.path.dirname(os.path.abspath(__file__)), '../ui/display.sh'), '-screen 0 1400x1000x24']
+
 SKIPPED = {'./run', './check', 'sudo', 'apt', 'apt-get', 'tools/setup', 'meson', 'ninja', 'git', 'cmake', 'pip',
            'mpirun', 'sbatch', 'man'}
 
@@ -160,9 +162,9 @@ class Runner:
 
     def start_window(self, command):
         """Whether the window still runs a while after its start on a display of its own."""
-        if shutil.which('xvfb-run') is None or shutil.which('dbus-run-session') is None:
+        if shutil.which('Xvfb') is None or shutil.which('dbus-run-session') is None:
             return None
-        with subprocess.Popen(['dbus-run-session', '--', 'xvfb-run', '-a', 'bash', '-c', command],
+        with subprocess.Popen(['dbus-run-session', '--', *DISPLAY, 'bash', '-c', command],
                               cwd=self.folder, env=self.env, stdin=subprocess.DEVNULL,
                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL,
                               start_new_session=True) as process:
@@ -235,7 +237,7 @@ class Runner:
             # The window would stay open with a message where it cannot read its file.
             good = runs is not False and all(self.run(['sealbench', 'check', file])[0] == 0 for file in files)
             self.report(good, line, command, 'the window ended, or its file has a fault',
-                        'without xvfb-run' if runs is None else None)
+                        'without Xvfb' if runs is None else None)
         elif re.match(r'sealbench tui\b', plain) and '--help' not in plain:
             self.report(self.start_terminal(command), line, command, 'the workbench did not start or end')
         else:

@@ -1,6 +1,6 @@
 """Drives sealbench-gtk by accessible names, waiting on states and never for a fixed time.
 
-Each test is one process under `dbus-run-session -- xvfb-run -a`. `start()` runs the program with a
+Each test is one process under `dbus-run-session -- display.sh`. `start()` runs the program with a
 configuration folder of its own; everything is looked up by role and name in the accessibility tree.
 """
 import functools

@@ -7,4 +7,4 @@ folder=$(mktemp -d /tmp/sealbench-session-XXXXXX) || exit 1
 trap 'rm -rf "$folder"' EXIT
 trap 'exit 1' HUP INT TERM
 export XDG_RUNTIME_DIR="$folder"
-dbus-run-session -- xvfb-run -a -s '-screen 0 1400x1000x24' "$@"
+dbus-run-session -- "$(dirname "$0")/display.sh" '-screen 0 1400x1000x24' "$@"
