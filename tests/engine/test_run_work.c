@@ -86,6 +86,23 @@ static void ends(void) {
   }
 }
 
+// Films whose speed is the stem's own are solved before and after the motion that finds it. Where
+// that motion uses up the budget, the report names it and not the films.
+static void own_speed(void) {
+  static const SbOverride over[] = {{SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                                    {SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
+                                    {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_RAMP}};
+  Outcome films = execute(over, 1, 1000000, false);
+  const int limit = (int)sb_run_summary(films.run)->work + 1;
+  Outcome cut = execute(over, 3, limit, false);
+  g_assert_cmpint(cut.status, ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_cmpstr(sb_input_key(cut.report.input), ==, "output.work_limit");
+  g_assert_true(g_str_has_prefix(cut.report.text, "motion (dynamic, for the speed of the films)"));
+  g_assert_null(strstr(cut.report.text, "film (reynolds)"));
+  sb_run_destroy(films.run);
+  sb_run_destroy(cut.run);
+}
+
 // Rings of both seals on threads of their own end as they do one after the other; both are at work
 // at this limit. That whole runs count equal work is a test of run-ring.
 static void threads(void) {
@@ -127,6 +144,7 @@ static void renewed(void) {
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/run-work/ends", ends);
+  g_test_add_func("/run-work/own-speed", own_speed);
   g_test_add_func("/run-work/threads", threads);
   g_test_add_func("/run-work/rig", rig);
   g_test_add_func("/run-work/renewed", renewed);

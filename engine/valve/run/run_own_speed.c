@@ -54,10 +54,16 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
   }
   double speed;
   bool slips;
-  // Errors of the motion are reported by the run itself.
-  SbStatus motion = sb_run_dynamic_speed(&speed, &slips, run, hooks, NULL);
+  SbReport cause;
+  SbStatus motion = sb_run_dynamic_speed(&speed, &slips, run, hooks, &cause);
   if (motion == SB_ERROR_CANCELLED) {
     return sb_fail(report, motion, "cancelled");
+  }
+  if (motion != SB_OK && run->work->spent) { // other errors are reported by the run's own motion
+    return sb_fail_input(report, motion, cause.input,
+                         "motion (dynamic, for the speed of the films), both seals: %s; available: "
+                         "the seals at drive.speed, %.3g mm/s",
+                         cause.text, 1e3 * run->speed);
   }
   if (speed == 0 && slips) {
     sb_warn(warnings, "film-speed", sb_input(SB_P_DRIVE_SPEED),
