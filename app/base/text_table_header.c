@@ -142,7 +142,7 @@ char **sb_text_table_header_cells(const SbTextTable *table, const GString *line)
       }
     }
     at = memchr(at, ':', (size_t)(end - at));
-    at += at != NULL;
+    at = at != NULL ? at + 1 : NULL;
   }
   return best;
 }

@@ -152,7 +152,8 @@ static void join_outline_cavities(SbCad *cad) {
       SbCadBody *body = cad->bodies->pdata[k];
       const SbProfile outline = profile_of(body);
       if (k != i && body->layer == inner->layer && !body->measured && within.count > 0 &&
-          outline.count > 0 && sb_profile_encloses(&outline, &within)) {
+          outline.count > 0 && body->revolved.volume > inner->revolved.volume &&
+          sb_profile_encloses(&outline, &within)) {
         const bool nearer = depth++ == 0 || body->revolved.volume < around[i]->revolved.volume;
         around[i] = nearer ? body : around[i];
       }
@@ -160,7 +161,7 @@ static void join_outline_cavities(SbCad *cad) {
     around[i] = depth % 2 == 1 ? around[i] : NULL;
   }
   for (guint i = count; i-- > 0;) {
-    if (around[i] != NULL) {
+    if (around[i] != NULL && g_ptr_array_find(cad->bodies, around[i], NULL)) {
       sb_solid_remove(&around[i]->solid, &((SbCadBody *)cad->bodies->pdata[i])->solid);
       around[i]->measured = true;
       sb_note_add(cad->warnings, "%s: the outline within it is a cavity", around[i]->name);

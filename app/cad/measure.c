@@ -15,8 +15,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// Meshes of a body; facets of the first one on a turn; processor time of a mesher, of all [s]: 25 s
-// for a spline of 32 waves, most of it for the projection of new vertices onto its face.
+// Meshes; facets of the first on a turn; processor time of one (25 for 32 waves), of all [s].
 enum { MESHES = 3, FACETS = 8, SECONDS = 40, SECONDS_ALL = 80 };
 
 // Smallest facets that are tried, and largest, relative to the body's largest side; relative size
