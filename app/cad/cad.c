@@ -142,13 +142,12 @@ static void settle_body(SbCadBody *body, const SbCadChoices *choices) {
 
 // Makes a body within an odd number of others of its layer a cavity of the smallest one.
 static void join_outline_cavities(SbCad *cad) {
-  const guint count = cad->bodies->len;
-  g_autofree SbCadBody **around = g_new0(SbCadBody *, count + 1);
-  for (guint i = 0; i < count; i++) {
+  g_autofree SbCadBody **around = g_new0(SbCadBody *, cad->bodies->len + 1);
+  for (guint i = 0; i < cad->bodies->len; i++) {
     const SbCadBody *inner = cad->bodies->pdata[i];
     const SbProfile within = profile_of(inner);
     guint depth = 0;
-    for (guint k = 0; k < count; k++) {
+    for (guint k = 0; k < cad->bodies->len; k++) {
       SbCadBody *body = cad->bodies->pdata[k];
       const SbProfile outline = profile_of(body);
       if (k != i && body->layer == inner->layer && !body->measured && within.count > 0 &&
@@ -160,9 +159,11 @@ static void join_outline_cavities(SbCad *cad) {
     }
     around[i] = depth % 2 == 1 ? around[i] : NULL;
   }
-  for (guint i = count; i-- > 0;) {
-    if (around[i] != NULL && g_ptr_array_find(cad->bodies, around[i], NULL)) {
-      sb_solid_remove(&around[i]->solid, &((SbCadBody *)cad->bodies->pdata[i])->solid);
+  for (guint i = cad->bodies->len; i-- > 0;) {
+    const SbCadBody *inner = cad->bodies->pdata[i];
+    if (around[i] != NULL && g_ptr_array_find(cad->bodies, around[i], NULL) &&
+        around[i]->solid.volume > inner->solid.volume) {
+      sb_solid_remove(&around[i]->solid, &inner->solid);
       around[i]->measured = true;
       sb_note_add(cad->warnings, "%s: the outline within it is a cavity", around[i]->name);
       g_ptr_array_remove_index(cad->bodies, i);

@@ -3,9 +3,8 @@
 // The kernel's quadrature is wrong by 1 % on spline faces, and by more on a spline that was
 // revolved. Their bodies are measured by meshes: the vertices are on the faces, so that the numbers
 // of a mesh deviate by even powers of the facets' size, and are extrapolated from meshes with
-// facets of half the size (Romberg's method). That reaches some 1e-5 (campaign `foreign`); the
-// kernel's numbers are used where they are equal to it. The mesher can hang or crash at the tip of
-// a cone, by chance: it runs in a process of its own, up to three times with other facets.
+// facets of half the size (Romberg's method) to some 1e-5 (campaign `foreign`). Equal numbers of
+// the kernel are used. The mesher can hang by chance: it has a process and up to three tries.
 #include "app/cad/cad_private.h"
 
 #include <gmshc.h>
