@@ -3,8 +3,8 @@
 // The kernel's quadrature is wrong by 1 % on spline faces, and by more on a spline that was
 // revolved. Their bodies are measured by meshes: the vertices are on the faces, so that the numbers
 // of a mesh deviate by even powers of the facets' size, and are extrapolated from meshes with
-// facets of half the size (Romberg's method) to some 1e-5 (campaign `foreign`). Equal numbers of
-// the kernel are used. The mesher can hang by chance: it has a process and up to three tries.
+// facets of half the size (Romberg's method) to some 1e-5 (campaign `foreign`). Kernel's numbers
+// that agree stay. As the mesher can hang or crash, it runs as a process, at most three times.
 #include "app/cad/cad_private.h"
 
 #include <gmshc.h>
@@ -14,7 +14,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// Meshes; facets of the first on a turn; processor time of one (25 for 32 waves), of all [s].
+// Meshes; facets of the first one on a turn; processor time of a mesher and of all meshers [s].
 enum { MESHES = 3, FACETS = 8, SECONDS = 40, SECONDS_ALL = 80 };
 
 // Smallest facets that are tried, and largest, relative to the body's largest side; relative size

@@ -134,7 +134,7 @@ SbComparison *sb_comparison_create(const SbMeasured *m, const SbLoop *loop) {
   memcpy(out->model_force, loop->stage_force, sizeof loop->stage_force);
   memcpy(out->model_error, loop->stage_error, sizeof loop->stage_error);
   SbMeasuredBand *band = &out->band;
-  const size_t cycles = m->last > m->first ? m->last + 1 : 0; // of one there is no scatter
+  const size_t cycles = m->last > m->first ? m->last + 1 : 0; // one cycle has no scatter
   for (size_t c = m->first; c < cycles; c++) {
     band->end = fmax(band->end, m->displacement[sb_measured_cycle(m, c)->turn] * (1 + 1e-9));
   }

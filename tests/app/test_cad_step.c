@@ -215,7 +215,7 @@ static int combine(int body, int tool, bool common) {
   return tag;
 }
 
-// With a port: the kernel's volume, the section next to it, and a difference that tells. Where the
+// With a port: the kernel's volume, the section next to it, and their difference. Where the
 // port is in the half-plane that is tried first, another one is used.
 static void test_port(void) {
   for (int kind = 0; kind < 2; kind++) {

@@ -97,7 +97,7 @@ static void own_speed(void) {
   Outcome cut = execute(over, 3, limit, false);
   g_assert_cmpint(cut.status, ==, SB_ERROR_NOT_CONVERGED);
   g_assert_cmpstr(sb_input_key(cut.report.input), ==, "output.work_limit");
-  g_assert_true(g_str_has_prefix(cut.report.text, "motion (dynamic, for the speed of the films)"));
+  g_assert_true(g_str_has_prefix(cut.report.text, "motion (for the speed of the films)"));
   g_assert_null(strstr(cut.report.text, "film (reynolds)"));
   sb_run_destroy(films.run);
   sb_run_destroy(cut.run);

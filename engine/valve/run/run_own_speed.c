@@ -60,10 +60,11 @@ SbStatus sb_run_solve_states(SbRun *run, const SbRunHooks *hooks, SbReport *repo
     return sb_fail(report, motion, "cancelled");
   }
   if (motion != SB_OK && run->work->spent) { // other errors are reported by the run's own motion
-    return sb_fail_input(report, motion, cause.input,
-                         "motion (dynamic, for the speed of the films), both seals: %s; available: "
-                         "the seals at drive.speed, %.3g mm/s",
-                         cause.text, 1e3 * run->speed);
+    return sb_fail_input(
+        report, motion, cause.input,
+        "motion (for the speed of the films), both seals: %s; available: the seals "
+        "at drive.speed, %.3g mm/s",
+        cause.text, 1e3 * run->speed);
   }
   if (speed == 0 && slips) {
     sb_warn(warnings, "film-speed", sb_input(SB_P_DRIVE_SPEED),
