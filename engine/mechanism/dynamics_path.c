@@ -249,16 +249,33 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
 // distance from there. Steps are made slightly too long, so that the event is inside them.
 static const double near_end = 1e-4, overshoot = 1e-5;
 
+// Rate [1/s] at which the stem's speed grows by friction that decreases with it, by Stribeck's law
+// too, and more than the dampers dissipate; 0: it does not grow.
+static double growth_rate(const SbDynamics *s, const Point *p) {
+  double c = p->sum.c;
+  for (size_t i = 0; i < s->model->contacts; i++) {
+    if (s->state[i] == SB_CONTACT_SLIP && sb_motion_speed_dependent(s->model, i)) {
+      const SbDynamicsContact *law = &s->model->contact[i];
+      double speed = fmax(s->sign[i] * p->v, sb_motion_rest_speed(s->model));
+      double ratio = speed / law->stribeck_speed;
+      double level = sb_motion_level(&p->loads, i, s->sign[i]);
+      double above = sb_motion_sliding_level(s, i, level, speed) - level;
+      c -= above * law->stribeck_exponent * pow(ratio, law->stribeck_exponent) / speed;
+    }
+  }
+  return fmax(0.0, -c / s->mass);
+}
+
 // Returns the length of the next step [s]. `first`: of a step after which nothing is known.
 static double first_length(const SbDynamics *s, const Point *p, double first) {
   double h = s->h > 0.0 ? s->h : first;
   if (s->piece.curved) {
     h = fmin(h, s->piece.step);
   }
-  if (!s->held && p->sum.c < 0.0) {
-    // What grows a longer step would damp (L-stability), to a solution that is none.
-    h = fmin(h, s->mass / -p->sum.c);
-  }
+  // A half step in which the speed would grow by far more than e^2 damps it instead (L-stability),
+  // to a solution that is none.
+  double growth = s->held ? 0.0 : growth_rate(s, p);
+  h = growth > 0.0 ? fmin(h, 4.0 / growth) : h;
   return fmax(h, 8.0 * DBL_EPSILON * s->t); // the time resolves no less
 }
 

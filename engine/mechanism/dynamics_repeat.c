@@ -38,6 +38,11 @@ static const long patience = 100;
 // leaves the balance of energies closed.
 static const double group_bend = 10.0, group_bend_most = 5e-7;
 
+// Largest relative change of a mean power in a group; smaller powers than the last number times the
+// largest do not count. Stick-slip ends where friction no longer falls with the speed, and no group
+// may pass over that.
+static const double group_moves = 0.05, group_small = 1e-3;
+
 bool sb_motion_undisturbed(const SbDynamics *s, const SbDynamicsBreak *was) {
   const SbDynamicsModel *m = s->model;
   const SbDynamicsBreak *now = &s->broke;
@@ -257,6 +262,22 @@ static bool settled(SbDynamics *s) {
   return still;
 }
 
+// Returns the time in which no mean power changes by more than a group may, at the rate since the
+// group before. `power` is that of the cycle around `middle`.
+static double power_lasts(const SbDynamicsGroup *g, const double *power, double middle) {
+  double largest = 0.0, lasts = INFINITY;
+  for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+    largest = fmax(largest, fabs(power[k]));
+  }
+  for (int k = 0; k < SB_DYNAMICS_TERMS; k++) {
+    const double slope = fabs(power[k] - g->power[1][k]) / (middle - g->middle[1]);
+    if (fabs(power[k]) > group_small * largest && slope > 0.0) {
+      lasts = fmin(lasts, group_moves * fabs(power[k]) / slope);
+    }
+  }
+  return lasts;
+}
+
 // Goes on by a group of cycles that are like the one from `was` to now.
 static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   SbDynamicsGroup *g = &s->group;
@@ -275,7 +296,8 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
     s->broke.energy = s->energy;
     g->open = false;
   }
-  const bool first = g->middle[1] == 0.0;
+  // The first cycle has another past, and is not one of those a group's powers follow from.
+  const bool first = g->middle[1] == 0.0, early = g->middle[0] == 0.0;
   for (size_t i = 0; i < s->model->contacts && !first; i++) {
     g->slower[i] = (s->broke.rest[i] - g->rested[i]) / (middle - g->middle[1]);
   }
@@ -285,15 +307,16 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   const double time = fmin(ahead.time, s->asked - s->t);
   double span = fmax(4.0 * g->span, 2.0 * worth * period);
   span = fmin(span, fmin(time, ahead.way / speed) - worth * period); // time to close it
+  span = early ? span : fmin(span, power_lasts(g, power, middle));
   const double room = ahead.way - worth * period * speed;
   while (span >= worth * period &&
          (way_to(s, s->t + span, direction) > room || bend(s, s->t + span, direction) > bound)) {
     span *= 0.5;
   }
   const double until = s->t + span;
-  const bool goes = !first && speed > 0.0 && span >= worth * period && isfinite(span);
+  const bool goes = !early && speed > 0.0 && span >= worth * period && isfinite(span);
   const double x = goes ? place_at(s, until, direction) : s->at.x;
-  if (!first && !(direction * (x - s->at.x) > 0.0)) {
+  if (!early && !(direction * (x - s->at.x) > 0.0)) {
     return;
   }
   // Straight on from the last two cycles that are known.
