@@ -80,6 +80,7 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   const SbEhlCase *c = &s->c;
   const SbEhlLayers *l = &c->layers;
   double thin = sb_ehl_layers_width(l);
+  const double thin_outlet = sb_ehl_layers_outlet_width(l);
   double unit = sqrt(1.44 + 0.52 * c->layers.lambda); // length of the rigid wedge
   bool thick = c->layers.lambda > 0 && thin > 1;
 
@@ -97,10 +98,13 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   const double outlet = c->layers.lambda > 0 ? sb_ehl_layers_outlet(l) : 1;
   Feature feature[3 + SB_EHL_FRONTS] = {
       {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
-      {thick ? 0.7 * unit : outlet, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
+      {thick ? 0.7 * unit : outlet,
+       fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin_outlet), unit)}};
   int features = 2;
   double left = c->layers.lambda > 0 ? fmax(tail, film_reach) : tail;
-  double right = fmax(tail, feature[1].X + 3 * feature[1].width);
+  // The film breaks where the gap opens to the flux film, which is the inlet's.
+  const double opening = fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit);
+  double right = fmax(tail, feature[1].X + 3 * opening);
   right = thick ? fmax(right, 2 * unit) : right;
   right = c->layers.outlet > 0 ? fmax(right, film_reach) : right;
   if (!(c->layers.lambda > 0) && c->layers.inlet != c->layers.outlet) {
