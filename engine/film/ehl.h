@@ -105,6 +105,7 @@ typedef struct {
   bool sealed;        // no flow: prescribed film pressure of the dry contact, all nodes cavitated
   bool cautious;      // Newton's method keeps the cavity after a shortened step
   bool coarse;        // larger elements, so that two levels fit into the mesh
+  bool least;         // small elements about the minimum film
   double flux, inlet; // estimates: flux film; X at which the film pressure begins
   struct {
     double X, width; // position and width of a layer; X infinite: none

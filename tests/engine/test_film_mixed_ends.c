@@ -432,6 +432,26 @@ static void test_narrow_outlet(void) {
   close_to("smooth central film", film.film_central, other.film_central, 1e-3);
 }
 
+// A leak at rest has its narrowest gap inside the contact, where no layer is: 0.856 of its half
+// width from the middle.
+static void test_leak_at_rest(void) {
+  SbFilmProblem problem = rough_seal(0, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.load = 18.487625369147224;
+  problem.radius = 0.51319371821516508e-3;
+  problem.modulus = 21543928.077542115;
+  problem.viscosity = 0.27613426261082245e-3;
+  problem.pressure_left = 663319.91080293618;
+  problem.rupture_pressure = -91457.56911760087;
+  problem.gt_product = 0.036985733444449574;
+  problem.sigma = 2.034043132098433e-6;
+  problem.sigma_over_beta = 0.07958883817562791;
+  problem.tolerance = 1.3139188015403401e-4;
+  check_estimates(&problem);
+  close_to("place", film.position_film_min / film.hertz_half_width, 0.856, 1e-3);
+  problem.tolerance = 1e-2; // begins with large elements
+  check_estimates(&problem);
+}
+
 static void test_refusals(void) {
   SbReport report;
   SbFilmProblem problem = rough_seal(1e-3, SB_ROUGH_PERSSON);
@@ -460,6 +480,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/sliding", test_sliding);
   g_test_add_func("/film/mixed/thin-layers", test_thin_layers);
   g_test_add_func("/film/mixed/narrow-outlet", test_narrow_outlet);
+  g_test_add_func("/film/mixed/leak-at-rest", test_leak_at_rest);
   g_test_add_func("/film/mixed/refusals", test_refusals);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);
