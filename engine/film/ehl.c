@@ -271,6 +271,7 @@ typedef struct {
   bool rough;  // rows
   bool saves;  // may begin with large elements
   bool coarse; // has large elements
+  bool again;  // has climbed a second time, refine()
   int last;    // degree of the finest mesh
   int degree;  // of the present one
 } Climb;
@@ -299,6 +300,23 @@ static bool begin_again(Climb *at, int *levels, SbStatus status) {
   return true;
 }
 
+// After the finest level of rough rows whose error is above the tolerance: climbs on from there,
+// once, with small elements everywhere and about the minimum film, which may be far from the edges,
+// for example where a leak at rest has its narrowest gap. Returns false if that is not to be done.
+static bool refine(Climb *at, SbFilmSolver *solver, int levels) {
+  SbEhlCase *c = &solver->now->c;
+  if (!at->rough || at->again || at->degree <= at->last || levels < 2 ||
+      worst(solver) <= solver->problem->tolerance) {
+    return false;
+  }
+  at->again = true;
+  at->coarse = c->rough.coarse = false;
+  c->rough.least = true;
+  (void)sb_ehl_rough_fronts(c, solver->now);
+  at->degree = DEGREE_FIRST + 2;
+  return true;
+}
+
 // Climbs the levels from a cold start. *levels is 0 when nothing was found.
 static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
                       const SbEhlCase *cold, double supply) {
@@ -309,9 +327,13 @@ static SbStatus climb(SbEhlResults *results, int *levels, SbFilmSolver *solver,
   // Coarse elements leave 1e-8 to 5e-6 of a film, fine ones a hundredth of that.
   static const double ENOUGH = 5e-3;
   const bool saves = rough && wanted >= ENOUGH;
-  Climb at = {rough, saves, saves, rough ? DEGREE_LAST_ROUGH : DEGREE_LAST, DEGREE_FIRST};
+  Climb at = {.rough = rough,
+              .saves = saves,
+              .coarse = saves,
+              .last = rough ? DEGREE_LAST_ROUGH : DEGREE_LAST,
+              .degree = DEGREE_FIRST};
   *levels = 0;
-  while (at.degree <= at.last) {
+  while (at.degree <= at.last || refine(&at, solver, *levels)) {
     SbEhlCase c = *cold;
     c.layers.degree = at.degree;
     c.rough.coarse = at.coarse;

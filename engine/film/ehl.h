@@ -105,6 +105,7 @@ typedef struct {
   bool sealed;        // no flow: prescribed film pressure of the dry contact, all nodes cavitated
   bool cautious;      // Newton's method keeps the cavity after a shortened step
   bool coarse;        // larger elements, so that two levels fit into the mesh
+  bool least;         // small elements about the minimum film
   double flux, inlet; // estimates: flux film; X at which the film pressure begins
   struct {
     double X, width; // position and width of a layer; X infinite: none
@@ -255,6 +256,10 @@ double sb_ehl_layers_flux(const SbEhlLayers *layers);
 
 // Returns the scaled width of the inlet layer, about lambda^0.4.
 double sb_ehl_layers_width(const SbEhlLayers *layers);
+
+// Returns the scaled width of the outlet layer: that of the inlet, or less where the dry pressure
+// has the larger slope at the outlet.
+double sb_ehl_layers_outlet_width(const SbEhlLayers *layers);
 
 // Returns the slope factor of the dry pressure at the inlet edge; 1 for Hertz's.
 double sb_ehl_layers_inlet_slope(const SbEhlLayers *layers);

@@ -94,7 +94,7 @@ double sb_ehl_layers_width(const SbEhlLayers *l) {
 
 // A flux below what the outlet's own slope would carry narrows its layer as starving does, to the
 // inlet's width. One above widens it: film^4/3 ~ slope^-4/3 lambda flux.
-static double outlet_width(const SbEhlLayers *l) {
+double sb_ehl_layers_outlet_width(const SbEhlLayers *l) {
   return pow(l->lambda, 0.4) * pow(fmax(sb_ehl_layers_inlet_slope(l), outlet_slope(l)), -1.2) *
          starved(l) * pow(excess(l), 0.25);
 }
@@ -125,7 +125,7 @@ double sb_ehl_layers_flux(const SbEhlLayers *l) {
 
 // Distance from the axis to the rupture, well enough to place the mesh.
 static double rupture_guess(const SbEhlLayers *l) {
-  double width = outlet_width(l), above = excess(l);
+  double width = sb_ehl_layers_outlet_width(l), above = excess(l);
   double elastic = 1.0 + 0.16406 * width - 0.25 * fmin(width, 0.3) * width;
   if (above > 1.0) {
     // Part of the distance to where the dry gap equals the flux film, from our own solutions.
@@ -174,18 +174,20 @@ double sb_ehl_layers_outlet(const SbEhlLayers *l) {
   }
   double K = 0.5 * (sb_ehl_layers_inlet_slope(l) + outlet_slope(l));
   double lambda = l->lambda / (K * K * K);
-  return 1.0 + place_of(lambda, outlet_slope(l) / K) + l->moved * outlet_width(l);
+  return 1.0 + place_of(lambda, outlet_slope(l) / K) + l->moved * sb_ehl_layers_outlet_width(l);
 }
 
 // Length over which the gap opens behind a flooded outlet: the flux film against the dry gap.
 static double opening(const SbEhlLayers *l) {
   double film = pow(sb_ehl_layers_inlet_slope(l), -0.8);
-  return fmax(outlet_width(l), pow(l->lambda, 0.4) * pow(film / outlet_slope(l), 2.0 / 3.0));
+  return fmax(sb_ehl_layers_outlet_width(l),
+              pow(l->lambda, 0.4) * pow(film / outlet_slope(l), 2.0 / 3.0));
 }
 
 // Edge of the contact that the outlet layer's shape belongs to.
 static double outlet_edge(const SbEhlLayers *l) {
-  return l->end == SB_EHL_FULL ? sb_ehl_layers_outlet(l) + 0.17 * outlet_width(l) : 1.0;
+  return l->end == SB_EHL_FULL ? sb_ehl_layers_outlet(l) + 0.17 * sb_ehl_layers_outlet_width(l)
+                               : 1.0;
 }
 
 // A flooded outlet: elements of growing size up to `reach`, then the infinite one.
@@ -245,7 +247,7 @@ static void add_inlet(SbEhlMesh *mesh, const SbEhlLayers *l) {
 static int outlet_ends(double *right, int most, const SbEhlLayers *l, double from) {
   static const double step[] = {-8.0, -2.5, -0.8, -0.1};
   double in = sb_ehl_layers_width(l);
-  double out = outlet_width(l);
+  double out = sb_ehl_layers_outlet_width(l);
   bool full = l->end == SB_EHL_FULL;
   double edge = sb_ehl_layers_outlet(l);
   double last = full ? edge : rupture_guess(l);
@@ -315,9 +317,9 @@ bool sb_ehl_layers_mesh(SbEhlSolution *s) {
   sb_ehl_mesh_begin(mesh, l->meniscus, l->inlet, l->outlet);
   (wedge > 0.0 ? thick_mesh : thin_mesh)(mesh, l);
   if (l->end == SB_EHL_FULL && !(wedge > 0.0)) {
-    add_outlet(mesh, outlet_width(l), 2.0 * opening(l), l->degree);
+    add_outlet(mesh, sb_ehl_layers_outlet_width(l), 2.0 * opening(l), l->degree);
   } else if (l->end == SB_EHL_REFORM) {
-    double unit = wedge > 0.0 ? 0.3 * wedge : outlet_width(l);
+    double unit = wedge > 0.0 ? 0.3 * wedge : sb_ehl_layers_outlet_width(l);
     mesh->end = l->reform;
     mesh->apart = true;
     add_outlet(mesh, 0.5 * unit + 0.5 * fmax(l->reform - rupture_guess(l), 0.0), 0.0, l->degree);
@@ -344,7 +346,7 @@ double sb_ehl_layers_dry_gap(const SbEhlLayers *l, double X) {
 void sb_ehl_layers_shape(double *pressure, double *film, const SbEhlLayers *l, double flux,
                          double X) {
   double in = sb_ehl_layers_width(l);
-  double out = outlet_width(l);
+  double out = sb_ehl_layers_outlet_width(l);
   double inside = fmin(fmax(X, -1.0), 1.0);
   double ends = sb_film_ends(X, l->inlet, l->outlet);
   if (X < 0.0) {

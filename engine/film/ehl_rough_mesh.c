@@ -80,6 +80,7 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   const SbEhlCase *c = &s->c;
   const SbEhlLayers *l = &c->layers;
   double thin = sb_ehl_layers_width(l);
+  const double thin_outlet = sb_ehl_layers_outlet_width(l);
   double unit = sqrt(1.44 + 0.52 * c->layers.lambda); // length of the rigid wedge
   bool thick = c->layers.lambda > 0 && thin > 1;
 
@@ -97,10 +98,13 @@ bool sb_ehl_rough_mesh(SbEhlSolution *s) {
   const double outlet = c->layers.lambda > 0 ? sb_ehl_layers_outlet(l) : 1;
   Feature feature[3 + SB_EHL_FRONTS] = {
       {thick ? -0.6 * unit : -1, fmin(edge_width(c, thick ? 0.6 * unit : thin), unit)},
-      {thick ? 0.7 * unit : outlet, fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit)}};
+      {thick ? 0.7 * unit : outlet,
+       fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin_outlet), unit)}};
   int features = 2;
   double left = c->layers.lambda > 0 ? fmax(tail, film_reach) : tail;
-  double right = fmax(tail, feature[1].X + 3 * feature[1].width);
+  // The film breaks where the gap opens to the flux film, which is the inlet's.
+  const double opening = fmin(edge_width(c, thick ? 0.3 * unit : 0.35 * thin), unit);
+  double right = fmax(tail, feature[1].X + 3 * opening);
   right = thick ? fmax(right, 2 * unit) : right;
   right = c->layers.outlet > 0 ? fmax(right, film_reach) : right;
   if (!(c->layers.lambda > 0) && c->layers.inlet != c->layers.outlet) {
@@ -208,12 +212,38 @@ static bool take_ends(SbEhlCase *c, const double place[SB_EHL_FRONTS], double fl
   return follow;
 }
 
+static double gap_at(const SbEhlCase *c, const Nodes *at, int i) {
+  SbEhlRoughPoint p;
+  sb_ehl_rough_point(&p, c, at->t[i]);
+  return p.h;
+}
+
+// The minimum film of all nodes, and how far from it the film is a quarter thicker.
+static void take_least(SbEhlCase *c, const Nodes *at) {
+  static const double THICKER = 1.25, FINEST = 1e-3;
+  int least = 0;
+  for (int i = 1; i < at->count; i++) {
+    least = gap_at(c, at, i) < gap_at(c, at, least) ? i : least;
+  }
+  const double rim = THICKER * gap_at(c, at, least);
+  double width = INFINITY;
+  for (int i = 0; i < at->count; i++) {
+    width = gap_at(c, at, i) > rim ? fmin(width, fabs(at->x[i] - at->x[least])) : width;
+  }
+  c->rough.front[SB_EHL_FRONT_LEAST].X = at->x[least];
+  c->rough.front[SB_EHL_FRONT_LEAST].width = fmax(width, FINEST);
+}
+
 static bool find_fronts(SbEhlCase *c, const Nodes *at) {
   double place[SB_EHL_FRONTS] = {INFINITY, INFINITY, INFINITY, INFINITY};
   if (c->rough.law != NULL && at->flow > 0 && c->layers.lambda > 0) {
     find_ends(place, c, at);
   }
-  return take_ends(c, place, at->flow);
+  const bool follow = take_ends(c, place, at->flow);
+  if (c->rough.least && !isfinite(c->rough.front[SB_EHL_FRONT_LEAST].X)) {
+    take_least(c, at);
+  }
+  return follow;
 }
 
 bool sb_ehl_rough_fronts(SbEhlCase *c, const SbEhlSolution *s) {

@@ -394,6 +394,64 @@ static void test_thin_layers(void) {
   g_assert_cmpfloat(film.solver.error_film_min, <, 1e-3);
 }
 
+// Checks that a problem meets its tolerance, and that its films differ from those of a hundredth of
+// it by no more than three times their estimated errors.
+static void check_estimates(const SbFilmProblem *problem) {
+  SbFilmProblem finer = *problem;
+  finer.tolerance = 0.01 * problem->tolerance;
+  g_assert_cmpint(solve(&film, problem), ==, SB_OK);
+  g_assert_cmpint(solve(&other, &finer), ==, SB_OK);
+  g_test_message("minimum film %.6g nm, error %.2g, central film %.6g nm, error %.2g",
+                 film.film_min * 1e9, film.solver.error_film_min, film.film_central * 1e9,
+                 film.solver.error_film_central);
+  g_assert_cmpfloat(film.solver.error_film_min, <=, problem->tolerance);
+  close_to("minimum film", film.film_min, other.film_min, 3 * film.solver.error_film_min);
+  close_to("central film", film.film_central, other.film_central,
+           3 * film.solver.error_film_central);
+}
+
+// An inlet pressure of three times Hertz's nearly opens the inlet and leaves the outlet a slope of
+// twice the dry contact's: its layer is a fortieth as wide as the inlet's.
+static void test_narrow_outlet(void) {
+  SbFilmProblem problem = rough_seal(0.033146011539677035, SB_ROUGH_PERSSON);
+  problem.load = 567.69217227216359;
+  problem.radius = 1.5094577889344987e-3;
+  problem.modulus = 6802194.2169347461;
+  problem.viscosity = 0.1893621092170973e-3;
+  problem.pressure_left = 1933511.1933057755;
+  problem.gt_product = 0.059289361019427923;
+  problem.sigma = 24.989878396204189e-9;
+  problem.sigma_over_beta = 0.01800003762783357;
+  problem.tolerance = 1e-2;
+  check_estimates(&problem);
+  // The asperities carry five millionths of the load: the film is that of smooth rows but for 0.3
+  // %.
+  problem.surface = SB_ROUGH_NONE;
+  g_assert_cmpint(solve(&other, &problem), ==, SB_OK);
+  close_to("smooth minimum film", film.film_min, other.film_min, 5e-3);
+  close_to("smooth central film", film.film_central, other.film_central, 1e-3);
+}
+
+// A leak at rest has its narrowest gap inside the contact, where no layer is: 0.856 of its half
+// width from the middle.
+static void test_leak_at_rest(void) {
+  SbFilmProblem problem = rough_seal(0, SB_ROUGH_GREENWOOD_TRIPP);
+  problem.load = 18.487625369147224;
+  problem.radius = 0.51319371821516508e-3;
+  problem.modulus = 21543928.077542115;
+  problem.viscosity = 0.27613426261082245e-3;
+  problem.pressure_left = 663319.91080293618;
+  problem.rupture_pressure = -91457.56911760087;
+  problem.gt_product = 0.036985733444449574;
+  problem.sigma = 2.034043132098433e-6;
+  problem.sigma_over_beta = 0.07958883817562791;
+  problem.tolerance = 1.3139188015403401e-4;
+  check_estimates(&problem);
+  close_to("place", film.position_film_min / film.hertz_half_width, 0.856, 1e-3);
+  problem.tolerance = 1e-2; // begins with large elements
+  check_estimates(&problem);
+}
+
 static void test_refusals(void) {
   SbReport report;
   SbFilmProblem problem = rough_seal(1e-3, SB_ROUGH_PERSSON);
@@ -421,6 +479,8 @@ int main(int argc, char **argv) {
   g_test_add_func("/film/mixed/snap-in", test_snap_in);
   g_test_add_func("/film/mixed/sliding", test_sliding);
   g_test_add_func("/film/mixed/thin-layers", test_thin_layers);
+  g_test_add_func("/film/mixed/narrow-outlet", test_narrow_outlet);
+  g_test_add_func("/film/mixed/leak-at-rest", test_leak_at_rest);
   g_test_add_func("/film/mixed/refusals", test_refusals);
   int failed = g_test_run();
   sb_film_solver_destroy(solver);

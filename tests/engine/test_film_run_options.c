@@ -179,6 +179,27 @@ static void test_inverse_hydrodynamics(void) {
   }
 }
 
+// A tolerance that no mesh meets: the film is a result with its own error, and the run says so.
+static void test_above_tolerance(void) {
+  enum { persson = 1 };
+  const Setting sharp[] = {{SB_P_MODELS_FIT, SB_FIT_GREEN_ENGLISH},
+                           {SB_P_MODELS_SURFACE, persson},
+                           {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED},
+                           {SB_P_OUTPUT_TOLERANCE, 1e-8}};
+  SbModel model = model_with(sharp, G_N_ELEMENTS(sharp));
+  solve(&plain, &model, PRESSED, 0.01, &warnings);
+  g_assert_true(warned(&warnings, "film-tolerance"));
+  g_assert_false(plain.solver.converged);
+  g_assert_cmpfloat(state.film_error, >=, plain.solver.error_film_min);
+  g_assert_cmpfloat(state.film_error, >, 1e-8);
+  g_assert_cmpfloat(state.film_error, <, 1e-7);
+  const double film = state.film_min, error = state.film_error;
+  model = model_with(sharp, G_N_ELEMENTS(sharp) - 1);
+  solve(&changed, &model, PRESSED, 0.01, &warnings);
+  g_assert_false(warned(&warnings, "film-tolerance"));
+  g_assert_cmpfloat(fabs(state.film_min / film - 1), <=, 3 * (state.film_error + error));
+}
+
 // A power law has none of this: the run says so.
 static void test_told(void) {
   const Setting on[] = {{SB_P_MODELS_FILM, SB_FILM_THESIS}, {SB_P_MODELS_VISCOSITY, 1}};
@@ -197,6 +218,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-run-options/rupture", test_rupture);
   g_test_add_func("/film-run-options/carried", test_carried);
   g_test_add_func("/film-run-options/inverse-hydrodynamics", test_inverse_hydrodynamics);
+  g_test_add_func("/film-run-options/above-tolerance", test_above_tolerance);
   g_test_add_func("/film-run-options/told", test_told);
   return g_test_run();
 }

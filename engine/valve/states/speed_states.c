@@ -90,9 +90,11 @@ static bool solve(double value[SB_SPEED_VALUES], SbSpeedStates *states, double s
   states->status = fatal ? status : SB_OK;
   states->solves++;
   take(value, &state);
-  if (status == SB_OK && task.supply.limited) { // that of a film which is used for another speed
-    const SbFilmSolverInfo *info = &sb_sliding_film(task.memory)->solver;
-    states->error = fmax(states->error, fmax(info->error_film_min, info->error_film_central));
+  const SbFilmSolverInfo *info = &sb_sliding_film(task.memory)->solver;
+  const double error = fmax(info->error_film_min, info->error_film_central);
+  // That of a film which is used for another speed, or which is above the tolerance.
+  if (status == SB_OK && (task.supply.limited || error > task.model->tolerance)) {
+    states->error = fmax(states->error, error);
   }
   return status == SB_OK;
 }
