@@ -54,11 +54,12 @@ SB_EXTENSION typedef enum SB_CHECKED_TYPE {
 // Builds with SB_ASSERT_RUNS abort if a message does not fit.
 enum { SB_TEXT = 512 };
 
-// Cause of an error that some callers take as a result instead of a failure.
+// Cause of an error that some callers take as a result, or answer in another way.
 typedef enum {
-  SB_CAUSE_OTHER,       // any other cause
-  SB_CAUSE_FLUID_OPENS, // the pressure of the fluid opens the contact: there is no film
-  SB_CAUSE_FLUID_PASSES // the fluid passes a clamped gasket
+  SB_CAUSE_OTHER,        // any other cause
+  SB_CAUSE_FLUID_OPENS,  // the pressure of the fluid opens the contact: there is no film
+  SB_CAUSE_FLUID_PASSES, // the fluid passes a clamped gasket
+  SB_CAUSE_CREASES       // a path of states ended at a surface that creases
 } SbCause;
 
 // First numbers of inputs. Each room below the valve numbers the inputs of its problems from its

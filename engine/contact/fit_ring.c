@@ -263,16 +263,22 @@ static SbStatus solve_ring(SbRing **ring, SbRingResult *result, bool *large, con
     SbRingOptions cold = *options;
     cold.element_size = *large ? SB_RING_LARGE : 0.0;
     cold.quick = *large;
-    status = sb_ring_fit(ring, result, body, load, &cold, warnings, report);
-    if (status == SB_ERROR_NOT_CONVERGED && in->dragged && !*large) {
+    SbReport first = {0};
+    status = sb_ring_fit(ring, result, body, load, &cold, warnings, &first);
+    const bool ended = status == SB_ERROR_NOT_CONVERGED || first.cause == SB_CAUSE_CREASES;
+    if (ended && in->dragged && !*large) {
       // Single nodes end a path, and others make another mesh's.
       SbReport own = {0};
       *large = true;
       cold.element_size = SB_RING_LARGE;
-      status = sb_ring_fit(ring, result, body, load, &cold, warnings, &own);
-      if (status != SB_ERROR_NOT_CONVERGED && report != NULL) {
-        *report = own; // else the error of the first path is reported
+      const SbStatus second = sb_ring_fit(ring, result, body, load, &cold, warnings, &own);
+      if (second != SB_ERROR_NOT_CONVERGED) { // else the error of the first path is reported
+        status = second;
+        first = own;
       }
+    }
+    if (report != NULL) {
+      *report = first;
     }
   }
   return status;

@@ -345,18 +345,17 @@ static SbStatus assemble_ring(SbRing *ring, const SbRingLoad *load, SbReport *re
 
 // Reports, for a path that ended at a creased surface, that there is no smooth state beyond.
 // `crease` is that of the states at which it ended.
-static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double crease,
-                            SbStatus status, SbReport *report) {
-  if (status != SB_ERROR_NOT_CONVERGED || sb_ring_is_circle(ring) || target->bore_slides != 0 ||
-      crease <= SB_RING_CREASE) {
+static SbStatus tell_crease(const SbRing *ring, double crease, SbStatus status, SbReport *report) {
+  if (status != SB_ERROR_NOT_CONVERGED || sb_ring_is_circle(ring) || crease <= SB_RING_CREASE) {
     return status;
   }
   const SbReport reason = report != NULL ? *report : (SbReport){0};
-  return sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_PROFILE,
-                       "the %s section's surface creases where it is pressed to %.2f of its "
-                       "length (rubber's does from %.2f on): %s",
-                       sb_seal_profile_name(ring->body.profile.kind), 1.0 / sqrt(crease),
-                       1.0 / sqrt(SB_RING_CREASE), reason.text);
+  status = sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_PROFILE,
+                         "the %s section's surface creases where it is pressed to %.2f of its "
+                         "length (rubber's does from %.2f on): %s",
+                         sb_seal_profile_name(ring->body.profile.kind), 1.0 / sqrt(crease),
+                         1.0 / sqrt(SB_RING_CREASE), reason.text);
+  return sb_fail_because(report, status, SB_CAUSE_CREASES);
 }
 
 // An easy path comes first if floor and walls have no friction, so that a state does not depend on
@@ -365,14 +364,15 @@ static SbStatus tell_crease(const SbRing *ring, const SbRingLoad *target, double
 // only, and its limit is not theirs. A ring that barely resists rolling can fail at single nodes of
 // a mesh, and a corner that closes inverts large elements: finer ones are tried. Where all of them
 // fail the path of a dragged ring is followed once more with damped corrections, which would change
-// the states of other rings slightly (valve 796 of the campaign random-valves, seed 1).
+// the states of other rings slightly (valve 796 of the campaign random-valves, seed 1). A path of
+// sliding can end at single nodes: only if that of every mesh ended at a crease it is the reason.
 static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *report) {
   enum { ITERATIONS_ALL = 5000 }; // after which no other path is begun but of a circle
   static const double FINER[] = {1.0, 1.0, 0.8, 0.6, 0.4};
   const bool slides = target->bore_slides != 0 && target->friction_bore > 0.0;
   const bool smooth = target->friction_floor == 0.0 && target->friction_wall == 0.0;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
-  double crease = 1.0;
+  double crease = target->bore_slides != 0 ? INFINITY : 1.0;
   const size_t tries = sizeof FINER / sizeof FINER[0] - (sb_ring_is_circle(ring) ? 1 : 0);
   const bool fluid = target->pressure_left != target->pressure_right;
   const bool easy = slides && (smooth || (fluid && ring->options.quick));
@@ -403,15 +403,16 @@ static SbStatus lay_ring(SbRing *ring, const SbRingLoad *target, SbReport *repor
     if (status == SB_OK) {
       status = sb_ring_check_apart(ring, &own);
     }
-    if (status == SB_ERROR_NOT_CONVERGED && ring->contact != NULL) {
-      crease = fmax(crease, sb_ring_crease(ring->contact));
+    if (status == SB_ERROR_NOT_CONVERGED) {
+      const double here = ring->contact != NULL ? sb_ring_crease(ring->contact) : 1.0;
+      crease = target->bore_slides != 0 ? fmin(crease, here) : fmax(crease, here);
     }
     told = i <= 1 || status != SB_ERROR_NOT_CONVERGED ? own : told;
   }
   if (report != NULL) {
     *report = told;
   }
-  return tell_crease(ring, target, crease, status, report);
+  return tell_crease(ring, crease, status, report);
 }
 
 void sb_ring_set_body(SbRing *ring, const SbRingBody *body, const SbRingLoad *load) {

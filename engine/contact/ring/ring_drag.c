@@ -360,6 +360,7 @@ static SbStatus settle_detached(SbRing *ring, SbReport *report) {
 SbStatus sb_ring_drag(SbRing *ring, double aim, SbReport *report) {
   SbStatus status = follow(ring, aim, report);
   ring->passing = false;
+  status = status == SB_ERROR_NOT_CONVERGED ? sb_ring_let_past(ring, report) : status;
   const bool limit = status == SB_OK && ring->state != SB_RING_SLIDES;
   const bool easy = ring->easy;
   ring->easy = false;

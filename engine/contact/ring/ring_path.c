@@ -125,8 +125,10 @@ SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report) {
   return status;
 }
 
-// Follows the ring at another load from the present state to an equilibrium.
-static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, SbReport *report) {
+// Follows the ring at another load from the present state to an equilibrium, or, with `off`, until
+// it has no contact with the bore, which is then true.
+static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, bool *off,
+                                 SbReport *report) {
   SbRingContact *contact = ring->contact;
   SbStatus status = SB_ERROR_NOT_CONVERGED;
   double c = VISCOSITY;
@@ -143,6 +145,12 @@ static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, SbReport 
     if (ring->state == SB_RING_ROLLS || status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY ||
         (status == SB_OK && drop)) {
       return status;
+    }
+    SbRingPatch patch;
+    if (status == SB_OK && off != NULL && !sb_ring_patch(ring, SB_RING_BORE, &patch)) {
+      *off = true;
+      ring->fem->viscosity = 0.0;
+      return SB_OK;
     }
     if (status == SB_OK) {
       (void)sb_ring_turn(contact, NULL, NULL, &to);
@@ -161,6 +169,12 @@ static SbStatus pseudo_transient(SbRing *ring, const SbRingLoad *load, SbReport 
   }
   return status == SB_OK ? sb_fail(report, SB_ERROR_NOT_CONVERGED, "the ring does not come to rest")
                          : status;
+}
+
+SbStatus sb_ring_moves_off(SbRing *ring, bool *off, SbReport *report) {
+  const SbRingLoad load = ring->contact->is.now;
+  *off = false;
+  return pseudo_transient(ring, &load, off, report);
 }
 
 // Puts the position where equilibrium ended before the reason.
@@ -210,7 +224,7 @@ SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path
         transients < TRANSIENTS_MAX) {
       transients++;
       sb_ring_save(contact, SB_RING_BEFORE);
-      status = pseudo_transient(ring, &load, report);
+      status = pseudo_transient(ring, &load, NULL, report);
       if (status == SB_OK) {
         share = 0.5 * part;
       } else {

@@ -216,11 +216,13 @@ static double crest_of(const SbRing *ring, SbRingSurface surface) {
   return most;
 }
 
+// Crests over the fluid's pressure, near which a path of a clamped ring ends because of them.
+static const double NEAR = 1.5;
+
 // Reports that the fluid passes, if a pressure rise ended near such a state: the contacts of a
 // clamped ring on stem and plate end in a fold as the fluid reaches the pressure of their crests.
 static SbStatus tell_passed(const SbRing *ring, const SbRingLoad *load, SbStatus status,
                             SbReport *report) {
-  static const double NEAR = 1.5; // crests over the fluid's pressure
   const SbRingLoad *now = &ring->contact->is.now;
   const bool left = load->pressure_left > load->pressure_right;
   const double on_stem = crest_of(ring, SB_RING_BORE);
@@ -254,6 +256,53 @@ static SbStatus fail_if_lifted(const SbRing *ring, SbReport *report) {
       report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CRIMP,
       "the fluid passes the gasket along the stem: %.3g MPa lifts the gasket off the stem",
       1e-6 * wanted * ring->stress);
+  return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
+}
+
+// Returns the last crest on the bore that holds the pressure `high`, over the contact from `first`.
+static int last_crest(const SbRing *ring, int first, double high) {
+  const SbRingContact *contact = ring->contact;
+  const int way = contact->is.now.pressure_left > contact->is.now.pressure_right ? 2 : -2;
+  int last = first;
+  for (int k = 1; k < contact->count / 2; k++) {
+    const int i = sb_ring_wrap(contact, first + way * k);
+    last = sb_ring_node_pressure(ring, i, SB_RING_BORE) > high ? i : last;
+  }
+  return last;
+}
+
+SbStatus sb_ring_let_past(SbRing *ring, SbReport *report) {
+  SbRingContact *contact = ring->contact;
+  const SbRingLoad now = contact->is.now;
+  const SbReport reason = report != NULL ? *report : (SbReport){0};
+  const double high = fmax(now.pressure_left, now.pressure_right);
+  const int first = contact->is.crest[0];
+  const double holds = sb_ring_node_pressure(ring, first, SB_RING_BORE);
+  if (!ring->body.inward || now.pressure_left == now.pressure_right || holds > NEAR * high) {
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  bool lifted;
+  sb_ring_save(contact, SB_RING_BEFORE);
+  contact->settled = true;
+  contact->is.crest[0] = last_crest(ring, first, high);
+  SbStatus status = sb_ring_moves_off(ring, &lifted, report);
+  sb_ring_restore(contact, SB_RING_BEFORE);
+  sb_ring_contact_settle(contact);
+  if (status == SB_ERROR_CANCELLED || status == SB_ERROR_MEMORY) {
+    return status;
+  }
+  if (!lifted) {
+    if (report != NULL) {
+      *report = reason;
+    }
+    return SB_ERROR_NOT_CONVERGED;
+  }
+  status = sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CRIMP,
+                         "the fluid passes the gasket along the stem: sliding with %.3g of the "
+                         "friction leaves %.3g MPa of contact at the gasket's edge, and %.3g MPa "
+                         "beyond this edge lift the gasket off the stem",
+                         now.friction_bore, 1e-6 * holds * ring->stress,
+                         1e-6 * high * ring->stress);
   return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
 }
 

@@ -246,6 +246,10 @@ SbStatus sb_ring_attempt(SbRing *ring, SbRingPath path, SbReport *report);
 // and state remain, and the report states the fraction that was reached.
 SbStatus sb_ring_advance(SbRing *ring, const SbRingLoad *target, SbRingPath path, SbReport *report);
 
+// Follows the viscous motion of the ring at its present load to an equilibrium, or until it has no
+// contact with the bore, which is then reported by *off. SB_ERROR_NOT_CONVERGED: neither was found.
+SbStatus sb_ring_moves_off(SbRing *ring, bool *off, SbReport *report);
+
 // Fits the ring from the free state without friction (except clamping walls) at the load `smooth`,
 // the fluid last, on its present mesh. Errors as for sb_ring_create().
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
@@ -256,6 +260,12 @@ bool sb_ring_rest_on_wall(SbRing *ring);
 
 // Changes the load to `target`; first moves the ring to the wall if the fluid pushes it there.
 SbStatus sb_ring_press(SbRing *ring, const SbRingLoad *target, SbReport *report);
+
+// Reports, for a path of sliding that ended with `report`, that the fluid passes a clamped ring:
+// the first crest on the stem hardly exceeds the fluid's pressure, and the fluid that has passed
+// it, up to the last one, lifts the ring off the stem, so that the path has no further state.
+// Returns SB_ERROR_INFEASIBLE, or SB_ERROR_NOT_CONVERGED if that is not so. The state is unchanged.
+SbStatus sb_ring_let_past(SbRing *ring, SbReport *report);
 
 // Returns the rotation of the section since it was free [rad] (the equivalent value nearest to the
 // last known one). If `du` is not NULL, writes its change by the displacement du[nodes][2], to
