@@ -97,6 +97,13 @@ static void rest(SbDynamics *s, size_t i, bool fresh) {
   s->fresh[i] = fresh;
 }
 
+// Contact i has come to rest. If it had only begun to slide it is exactly at its limit: rounding
+// cannot decide, so its limit is raised by rounding.
+static void set_margin(SbDynamics *s, size_t i) {
+  const bool moved = s->t > s->slipped[i] * (1.0 + 1e-14);
+  s->margin[i] = moved ? 0.0 : fmax(4.0 * s->margin[i], 1e-12 * s->loads.level[i]);
+}
+
 // Speed of the patch of contact i over the bore [m/s].
 static double patch_speed(const SbDynamics *s, size_t i) {
   Point p;
@@ -231,6 +238,7 @@ static void rigid_event(SbDynamics *s, int direction) {
       if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
         s->state[i] = SB_CONTACT_SLIP;
         s->sign[i] = direction;
+        s->slipped[i] = s->t;
       }
     }
     update_held(s);
@@ -246,8 +254,10 @@ static void rigid_event(SbDynamics *s, int direction) {
   sb_motion_point(&p, s, s->t, &s->at);
   const int pulled = p.sum.f0 > 0.0 ? 1 : -1;
   for (size_t i = 0; i < m->contacts; i++) {
-    bool holds = is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK;
-    hold += holds ? sb_motion_holding(s, &p, i, pulled) : 0.0;
+    if (is_rigid(m, i) && s->state[i] == SB_CONTACT_STUCK) {
+      set_margin(s, i);
+      hold += sb_motion_holding(s, &p, i, pulled);
+    }
   }
   if (fabs(p.sum.f0) > hold) {
     rigid_event(s, pulled);
@@ -263,12 +273,7 @@ static void contact_event(SbDynamics *s, size_t i, int direction) {
       jump_deflection(s, i, s->at.d[i] - c->damping / c->stiffness * patch_speed(s, i));
     }
     rest(s, i, false);
-    if (s->t > s->slipped[i] * (1.0 + 1e-14)) {
-      s->margin[i] = 0.0;
-    } else {
-      // Exactly at its limit: rounding cannot decide, so its limit is raised by rounding.
-      s->margin[i] = fmax(4.0 * s->margin[i], 1e-12 * s->loads.level[i]);
-    }
+    set_margin(s, i);
     return;
   }
   tell(s, SB_MOTION_SLIP, (int)i, direction);
