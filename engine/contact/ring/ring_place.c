@@ -297,12 +297,12 @@ SbStatus sb_ring_let_past(SbRing *ring, SbReport *report) {
     }
     return SB_ERROR_NOT_CONVERGED;
   }
-  status = sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CRIMP,
-                         "the fluid passes the gasket along the stem: sliding with %.3g of the "
-                         "friction leaves %.3g MPa of contact at the gasket's edge, and %.3g MPa "
-                         "beyond this edge lift the gasket off the stem",
-                         now.friction_bore, 1e-6 * holds * ring->stress,
-                         1e-6 * high * ring->stress);
+  status =
+      sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_CRIMP,
+                    "the fluid passes the gasket along the stem: sliding with %.3g of the "
+                    "friction leaves %.3g MPa of contact at the gasket's edge, and %.3g MPa "
+                    "beyond this edge lift the gasket off the stem",
+                    now.friction_bore, 1e-6 * holds * ring->stress, 1e-6 * high * ring->stress);
   return sb_fail_because(report, status, SB_CAUSE_FLUID_PASSES);
 }
 
