@@ -278,6 +278,25 @@ static double power_lasts(const SbDynamicsGroup *g, const double *power, double 
   return lasts;
 }
 
+// Returns the duration of the next group, no longer than `lasts`, of cycles with the `period` in
+// which the stem moves at the mean `speed`; less than `worth` periods: there is none.
+static double span_of(const SbDynamics *s, double period, double speed, int direction,
+                      double lasts) {
+  const double tolerance = s->model->tolerance > 0.0 ? s->model->tolerance : 1e-9;
+  const double bound = fmin(group_bend * tolerance, group_bend_most);
+  const SbMotionAhead ahead = sb_motion_ahead(s, direction);
+  const double time = fmin(ahead.time, s->asked - s->t);
+  double span = fmax(4.0 * s->group.span, 2.0 * worth * period);
+  span = fmin(span, fmin(time, ahead.way / speed) - worth * period); // time to close it
+  span = fmin(span, lasts);
+  const double room = ahead.way - worth * period * speed;
+  while (span >= worth * period &&
+         (way_to(s, s->t + span, direction) > room || bend(s, s->t + span, direction) > bound)) {
+    span *= 0.5;
+  }
+  return span;
+}
+
 // Goes on by a group of cycles that are like the one from `was` to now.
 static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   SbDynamicsGroup *g = &s->group;
@@ -301,18 +320,8 @@ static void pass_group(SbDynamics *s, const SbDynamicsBreak *was, int event) {
   for (size_t i = 0; i < s->model->contacts && !first; i++) {
     g->slower[i] = (s->broke.rest[i] - g->rested[i]) / (middle - g->middle[1]);
   }
-  const double tolerance = s->model->tolerance > 0.0 ? s->model->tolerance : 1e-9;
-  const double bound = fmin(group_bend * tolerance, group_bend_most);
-  const SbMotionAhead ahead = sb_motion_ahead(s, direction);
-  const double time = fmin(ahead.time, s->asked - s->t);
-  double span = fmax(4.0 * g->span, 2.0 * worth * period);
-  span = fmin(span, fmin(time, ahead.way / speed) - worth * period); // time to close it
-  span = early ? span : fmin(span, power_lasts(g, power, middle));
-  const double room = ahead.way - worth * period * speed;
-  while (span >= worth * period &&
-         (way_to(s, s->t + span, direction) > room || bend(s, s->t + span, direction) > bound)) {
-    span *= 0.5;
-  }
+  const double lasts = early ? INFINITY : power_lasts(g, power, middle);
+  const double span = span_of(s, period, speed, direction, lasts);
   const double until = s->t + span;
   const bool goes = !early && speed > 0.0 && span >= worth * period && isfinite(span);
   const double x = goes ? place_at(s, until, direction) : s->at.x;

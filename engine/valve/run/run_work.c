@@ -2,7 +2,7 @@
 
 #include "engine/valve/model/params.h"
 
-enum { SEGMENTS_PER_STEP = 10 };
+enum { SEGMENTS_PER_STEP = 40 };
 
 static bool stops(SbWork *work) {
   return work->spent || (work->cancelled != NULL && work->cancelled(work->data));

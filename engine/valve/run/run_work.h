@@ -1,6 +1,6 @@
 // The budget of work of a run: a number of solver steps (Newton iterations of rings and films, time
-// steps of the transient film), limited by output.work_limit. Ten segments of the motion count as
-// one step: a segment takes some 10 us, the other steps 0.1 ms to 10 ms. Elapsed time does not
+// steps of the transient film), limited by output.work_limit. Forty segments of the motion count
+// as one step: a segment takes some 4 us, the other steps 0.1 ms to 10 ms. Elapsed time does not
 // count, so that a run ends at the same step on every machine.
 //
 // Start: SbWork work = {.limit = steps, .cancelled = f, .data = d}. Pass sb_work_step (to a motion
@@ -18,7 +18,7 @@
 typedef struct {
   size_t done;  // steps used so far; 0 at the start
   size_t limit; // allowed steps; 0 allows none
-  int segments; // of the motion that are not in `done`, 0 to 9; 0 at the start
+  int segments; // of the motion that are not in `done`, 0 to 39; 0 at the start
   bool spent;   // false at the start; true once a step exceeded the limit: later ones fail too
   bool (*cancelled)(void *data); // called at each step; returns whether the user cancels; NULL: no
   void *data;                    // argument of `cancelled`
@@ -28,7 +28,7 @@ typedef struct {
 // SB_ERROR_CANCELLED: the limit is exceeded (then `spent` is set), or `cancelled` returns true.
 bool sb_work_step(void *data);
 
-// Counts one segment of a motion, which is a tenth of a step. Otherwise as sb_work_step().
+// Counts one segment of a motion, which is a fortieth of a step. Otherwise as sb_work_step().
 bool sb_work_segment(void *data);
 
 // Returns a budget whose limit is the remaining steps of `work` divided by `parts` (> 0, rounded
