@@ -97,10 +97,17 @@ static void rest(SbDynamics *s, size_t i, bool fresh) {
   s->fresh[i] = fresh;
 }
 
+// Slips shorter than this part of the time in which a contact's damper relaxes are chatter.
+static const double chatter = 1e-3;
+
 // Contact i has come to rest. If it had only begun to slide it is exactly at its limit: rounding
-// cannot decide, so its limit is raised by rounding.
+// cannot decide, so its limit is raised by rounding. More where it chatters: the film's drag, by
+// the stem's speed, ends as the patch comes to rest under a stem that still moves, and the contact
+// cannot hold without it.
 static void set_margin(SbDynamics *s, size_t i) {
-  const bool moved = s->t > s->slipped[i] * (1.0 + 1e-14);
+  const SbDynamicsContact *c = &s->model->contact[i];
+  const double least = fmax(1e-14 * s->slipped[i], chatter * c->damping / c->stiffness);
+  const bool moved = s->t > s->slipped[i] + least;
   s->margin[i] = moved ? 0.0 : fmax(4.0 * s->margin[i], 1e-12 * s->loads.level[i]);
 }
 
