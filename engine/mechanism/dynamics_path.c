@@ -390,10 +390,11 @@ SbStatus sb_motion_find_path(SbDynamics *s, SbReport *report) {
   sb_motion_point(&p, s, s->t, &s->at);
   for (size_t i = 0; i < s->model->contacts; i++) {
     // A contact that began fast counts as fast while it decelerates to the speed of rest, in any
-    // number of steps.
+    // number of steps; one that chatters does not: what it crept would be taken back at each rest.
     double slip = fabs(p.v - sb_motion_deflection_rate(s, &p, i));
     double rest = sb_motion_rest_speed(s->model);
-    s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && slip > (s->brisk[i] ? rest : 2.0 * rest);
+    s->brisk[i] = s->state[i] == SB_CONTACT_SLIP && s->margin[i] == 0.0 &&
+                  slip > (s->brisk[i] ? rest : 2.0 * rest);
   }
   Live live;
   live.count = 0;

@@ -30,6 +30,9 @@
 // listener.
 static const double worth = 10.0;
 
+// Travel of the stem in a cycle, over the noise of places, above which cycles are compared.
+static const double moves_least = 1e6;
+
 // Break-aways after which cycles under constant loads are taken as slowly changing.
 static const long patience = 100;
 
@@ -78,7 +81,9 @@ static bool equal(const SbDynamics *s, const SbDynamicsBreak *a, const SbDynamic
   const double yield = drift(s) * (a->at.x - b->at.x);
   // Off the platen that force alone acts, another in each cycle.
   const bool pressed = drift(s) == 0.0 || a->platens == b->platens;
-  bool same = pressed && close_to(a->stretch - yield, b->stretch, noise) &&
+  // A cycle in which the stem moves by little more than that noise is not known to be one.
+  const bool moves = fabs(a->at.x - b->at.x) > moves_least * noise;
+  bool same = pressed && moves && close_to(a->stretch - yield, b->stretch, noise) &&
               close_to(a->at.v, b->at.v, 1e-9 * fabs(s->piece.rate));
   for (size_t i = 0; i < s->model->contacts; i++) {
     const bool rests = a->state[i] == SB_CONTACT_STUCK;

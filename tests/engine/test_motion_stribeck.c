@@ -1,5 +1,5 @@
-// Motion where friction falls with the speed by Stribeck's law: where it takes off, and where
-// stick-slip ends.
+// Motion where friction falls with the speed, by Stribeck's law or a film's drag: where it takes
+// off, where stick-slip ends, and where contacts chatter between rest and sliding.
 #include "engine/mechanism/dynamics.h"
 
 #include "tests/engine/near.h"
@@ -148,10 +148,48 @@ static void test_equal(void) {
   g_rand_free(random);
 }
 
+// Drag of a film that rises steeply to 1 um/s and falls to nothing at 2 mm/s.
+static void peaked_band(SbDynamicsBand *band, double x, size_t region, int direction, double speed,
+                        const double *extra, void *user) {
+  const SbDynamicsBand part[] = {{.high = 1e-6, .slope = {1e4}},
+                                 {.low = 1e-6, .high = 2e-3, .rise = {0.01}, .slope = {-5.0}},
+                                 {.low = 2e-3, .high = INFINITY}};
+  *band = part[speed < 1e-6 ? 0 : speed < 2e-3 ? 1 : 2];
+}
+
+// Drag acts by the stem's speed while the contact slides, and not while it holds. A stem that
+// creeps below the peak of its drag is held and let go in turns, until the contact's spring has
+// relaxed: within a few milliseconds, some hundred times.
+static void test_chatter(void) {
+  double force[2] = {0.0, 0.384};
+  SbDynamicsModel m = {.mass = 8.66e-3,
+                       .contacts = 1,
+                       .contact = {{.static_ratio = 1.0, .stiffness = 39264.0, .damping = 1.84}},
+                       .loads = constant_loads,
+                       .user = force,
+                       .band = peaked_band,
+                       .drive = ramp(0.0, 1.0, 1.29e-4),
+                       .drive_stiffness = 3659.0,
+                       .drive_damping = 0.6};
+  SbDynamics s;
+  SbDynamicsSample at;
+  SbDynamicsEnergy energy;
+  start(&s, &m);
+  advance(&s, 3.0, &at, &energy);
+  g_test_message("chatter: %ld segments, %ld events, %ld cycles passed over, at %.9g m, closure "
+                 "%.1e",
+                 s.counters.segments, s.counters.events, s.counters.repeated, at.position,
+                 energy.closure);
+  g_assert_cmpint(s.counters.segments, <, 100000);
+  g_assert_cmpfloat(energy.closure, <, 1e-6);
+  ASSERT_NEAR(at.position, 3.0 * 1.29e-4 - 0.384 / 3659.0, 5e-6);
+}
+
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/motion/stribeck/take-off", test_take_off);
   g_test_add_func("/motion/stribeck/end", test_end);
   g_test_add_func("/motion/stribeck/equal", test_equal);
+  g_test_add_func("/motion/stribeck/chatter", test_chatter);
   return g_test_run();
 }
