@@ -373,7 +373,8 @@ static void test_limits(void) {
   }
   // Contacts as wide as the disc: not even dry.
   in = disc_problem(SB_DISC_RADIAL, 0.42, 0.0);
-  g_assert_cmpint(sb_fit_solve(&disc, &in, &report), ==, SB_ERROR_NOT_CONVERGED);
+  g_assert_cmpint(sb_fit_solve(&disc, &in, &report), ==, SB_ERROR_INFEASIBLE);
+  g_assert_nonnull(strstr(report.text, "as wide as the disc"));
   g_assert_cmpstr(sb_input_key(report.input), ==, "gland.radial_space");
   g_assert_false(disc.touches);
   // A tolerance below what the radial kernel's kink allows.

@@ -345,6 +345,17 @@ static void climb(Ladder *out, Work *w) {
   }
 }
 
+// Returns whether the disc is squeezed so much that the edges of its dry contact, which move
+// outwards while the pressure's singularity there is a compressive one, would meet no smooth state
+// up to nearly its diameter: the linear disc has no state then.
+static bool too_wide(Work *w) {
+  static const double WIDEST = 0.98; // of the radius
+  double residual;
+  w->system.pressure = 0.0;
+  w->system.hydrostatic = w->both;
+  return sb_disc_system_solve(&residual, &WIDEST, &w->system) && residual > 0.0;
+}
+
 // Sets the errors of the last solution, and returns why it is not the wanted one.
 static SbStatus judge(SbFit *out, const SbFitProblem *in, const Ladder *ladder, double both,
                       double residual, SbReport *report) {
@@ -406,7 +417,13 @@ static SbStatus solve_spectral(SbFit *out, const SbFitProblem *in, double both, 
   if (ladder.count > 0) {
     fill(out, &ladder.found[ladder.count - 1], compliance, both, in->pressure < 0.0);
   }
-  SbStatus status = judge(out, in, &ladder, both, residual, report);
+  SbStatus status =
+      ladder.reached < 0.0 && too_wide(w)
+          ? sb_fail_input(report, SB_ERROR_INFEASIBLE, SB_CONTACT_IN_RADIAL_SPACE,
+                          "the contact of the linear disc would be as wide as the disc, which is "
+                          "squeezed by %.0f %% of its diameter: this model has no such state",
+                          100.0 * (1.0 - w->system.half_space))
+          : judge(out, in, &ladder, both, residual, report);
   if (status != SB_OK && report != NULL) {
     report->residual = residual;
     report->iteration = (int)iterations;
