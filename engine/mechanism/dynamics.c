@@ -97,8 +97,9 @@ static void rest(SbDynamics *s, size_t i, bool fresh) {
   s->fresh[i] = fresh;
 }
 
-// Slips shorter than this part of the time in which a contact's damper relaxes are chatter.
-static const double chatter = 1e-3;
+// Slips shorter than the first part of the time in which a contact's damper relaxes are chatter; a
+// contact that chatters holds by no more than the second part of its level longer.
+static const double chatter = 1e-3, margin_most = 1e-3;
 
 // Contact i has come to rest. If it had only begun to slide it is exactly at its limit: rounding
 // cannot decide, so its limit is raised by rounding. More where it chatters: the film's drag, by
@@ -108,7 +109,8 @@ static void set_margin(SbDynamics *s, size_t i) {
   const SbDynamicsContact *c = &s->model->contact[i];
   const double least = fmax(1e-14 * s->slipped[i], chatter * c->damping / c->stiffness);
   const bool moved = s->t > s->slipped[i] + least;
-  s->margin[i] = moved ? 0.0 : fmax(4.0 * s->margin[i], 1e-12 * s->loads.level[i]);
+  const double level = s->loads.level[i];
+  s->margin[i] = moved ? 0.0 : fmin(fmax(4.0 * s->margin[i], 1e-12 * level), margin_most * level);
 }
 
 // Speed of the patch of contact i over the bore [m/s].

@@ -305,8 +305,8 @@ typedef struct {
   SbContactState state[SB_DYNAMICS_CONTACTS];
   int sign[SB_DYNAMICS_CONTACTS];     // direction of sliding
   double since[SB_DYNAMICS_CONTACTS]; // time at which the rest began [s]
-  // Time of the last slip [s]; addition to the static friction because that slip had no duration
-  // [N].
+  // Time of the last slip [s]; addition to the static friction because that slip had hardly any
+  // duration [N].
   double slipped[SB_DYNAMICS_CONTACTS], margin[SB_DYNAMICS_CONTACTS];
   bool fresh[SB_DYNAMICS_CONTACTS]; // newly loaded: static friction is that of sliding
   size_t region;
