@@ -11,7 +11,9 @@
 // ln(1 + dwell/dwell_time)), or up to L times a law of the dwell (dwell.h). While it slides, its
 // friction is L [1 + (static_ratio - 1) exp(-(speed/stribeck_speed)^stribeck_exponent)], or L if
 // stribeck_speed is 0. Further speed dependence is piecewise linear in |v| and continuous ("bands"
-// of speed); it acts in addition to the tangential spring and may increase or decrease. A contact
+// of speed); it acts in addition to the tangential spring, while the contact slides, and may
+// increase or decrease. Where a contact sticks and slips in turn because of that (in slips shorter
+// than a thousandth of damping/stiffness), it carries up to 0.1 % more than stated above. A contact
 // of finite `stiffness` connects stem and bore by a tangential spring and damper; its patch does
 // not move while it sticks. A rigid contact (stiffness INFINITY) fixes the stem while it sticks. A
 // contact with level 0 does not exist.

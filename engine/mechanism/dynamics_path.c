@@ -249,8 +249,9 @@ static void set_system(SbDynamics *s, const Point *p, double *noise, double *spe
 // distance from there. Steps are made slightly too long, so that the event is inside them.
 static const double near_end = 1e-4, overshoot = 1e-5;
 
-// Rate [1/s] at which the stem's speed grows by friction that decreases with it, by Stribeck's law
-// too, and more than the dampers dissipate; 0: it does not grow.
+// Rate [1/s] at which the stem's speed grows by friction that decreases with it, and more than the
+// dampers dissipate; 0: it does not grow. The slope is that of the bands and of Stribeck's law
+// (dynamics.h): L (static_ratio - 1) d/dv exp(-(v/stribeck_speed)^stribeck_exponent).
 static double growth_rate(const SbDynamics *s, const Point *p) {
   double c = p->sum.c;
   for (size_t i = 0; i < s->model->contacts; i++) {
@@ -273,7 +274,7 @@ static double first_length(const SbDynamics *s, const Point *p, double first) {
     h = fmin(h, s->piece.step);
   }
   // A half step in which the speed would grow by far more than e^2 damps it instead (L-stability),
-  // to a solution that is none.
+  // to a solution that is none: Radau IIA's factor is 7.5 for e^2 = 7.4, and has a pole at e^3.6.
   double growth = s->held ? 0.0 : growth_rate(s, p);
   h = growth > 0.0 ? fmin(h, 4.0 / growth) : h;
   return fmax(h, 8.0 * DBL_EPSILON * s->t); // the time resolves no less

@@ -158,7 +158,7 @@ static void peaked_band(SbDynamicsBand *band, double x, size_t region, int direc
 }
 
 // Drag acts by the stem's speed while the contact slides, and not while it holds. A stem that
-// creeps below the peak of its drag is held and let go in turns, until the contact's spring has
+// creeps below the peak of its drag sticks and slips in turn, until the contact's spring has
 // relaxed: within a few milliseconds, some hundred times.
 static void test_chatter(void) {
   double force[2] = {0.0, 0.384};

@@ -232,7 +232,7 @@ static double strength(double pressure, double *slope, const void *law) {
 
 // A soft gasket on a wide stem, at rest sealed by the crests at its edges only: friction lowers the
 // first of them to the fluid's pressure, and the fluid that passes it lifts the gasket (campaign
-// random-valves, seed 18, number 734). Without friction on the stem it is solved.
+// random-valves, seed 401, number 734). Without friction on the stem it is solved.
 static void dragged(void) {
   static const double STRENGTH = 0.23763e6;
   const double thick = 1.5459e-3, outer = 8.8525e-3, bore = 3.1889e-3;
