@@ -55,26 +55,51 @@ static SbStatus settle(SbFilmTransient *t) {
   return status;
 }
 
-// Total pressure, film pressure and gap of a profile; beyond its ends those of the surroundings.
+// A place in the points of a profile: between point k and the next one.
+typedef struct {
+  size_t k;
+  double share;
+} Place;
+
+static Place find_place(const SbFilm *film, double x) {
+  const size_t k = sb_interval(film->x, film->points, x);
+  return (Place){k, (x - film->x[k]) / (film->x[k + 1] - film->x[k])};
+}
+
+static double read_at(const double *value, Place at) {
+  return value[at.k] + at.share * (value[at.k + 1] - value[at.k]);
+}
+
+// Total pressure, film pressure and gap of a profile. Beyond its ends the pressures are those of
+// the surroundings, and the gap continues as these pressures deform the body: a film that begins
+// at rest keeps the fluid of its first gaps, and any other gap there would be a large pressure.
 static void lay_profile(SbFilmTransient *t, const SbFilm *film) {
   SbTransientState *s = &t->now;
   const SbFilmScale *scale = &t->scale;
+  const double b = scale->half_width, *ends = film->x;
+  int first = t->nodes - 1, last = 0; // nodes between the ends
   for (int i = 0; i < t->nodes; i++) {
-    const double X = t->X[i], x = (scale->middle + X) * scale->half_width;
-    s->P[i] = s->Q[i] = X < 0.0 ? scale->inlet : scale->outlet;
-    s->H[i] = film->film_flux / scale->film + sb_film_dry_gap(X);
-    if (x >= film->x[0] && x <= film->x[film->points - 1]) {
-      const size_t k = sb_interval(film->x, film->points, x);
-      const double share = (x - film->x[k]) / (film->x[k + 1] - film->x[k]);
-      const double *p = &film->pressure[k], *h = &film->film[k], *a = &film->asperity_pressure[k];
-      const double pressure = p[0] + share * (p[1] - p[0]) - t->problem.film.rupture_pressure;
-      s->Q[i] = pressure / scale->pressure;
-      s->P[i] = s->Q[i] - (a[0] + share * (a[1] - a[0])) / scale->pressure;
-      s->H[i] = (h[0] + share * (h[1] - h[0])) / scale->film;
-    }
+    const double x = (scale->middle + t->X[i]) * b;
+    s->P[i] = s->Q[i] = t->X[i] < 0.0 ? scale->inlet : scale->outlet;
     s->cavity[i] = false;
+    if (x >= ends[0] && x <= ends[film->points - 1]) {
+      const Place at = find_place(film, x);
+      const double pressure = read_at(film->pressure, at) - t->problem.film.rupture_pressure;
+      s->Q[i] = pressure / scale->pressure;
+      s->P[i] = s->Q[i] - read_at(film->asperity_pressure, at) / scale->pressure;
+      first = i < first ? i : first;
+      last = i;
+    }
   }
   s->H0 = 0.0;
+  sb_transient_gap(s->H, t, s);
+  const double left = s->H[first], right = s->H[last];
+  for (int i = 0; i < t->nodes; i++) {
+    const int from = i < first ? first : i > last ? last : i;
+    const double beyond = i < first ? s->H[i] - left : i > last ? s->H[i] - right : 0.0;
+    const double x = (scale->middle + t->X[from]) * b;
+    s->H[i] = read_at(film->film, find_place(film, x)) / scale->film + beyond;
+  }
 }
 
 // Steady state from the spectral solution at `speed` [m/s].

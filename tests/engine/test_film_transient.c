@@ -583,6 +583,37 @@ static void test_rough_rest(void) {
   sb_film_transient_destroy(t);
 }
 
+// A rough contact at rest on a disc keeps the fluid of its gaps until it moves, also beyond the
+// ends of the steady film's profile: there too the gap is that of the body under its pressures.
+static void test_rough_gap(void) {
+  SbFilmTransientProblem p = rough(SB_ROUGH_PERSSON, 0.766e-6, 0.0);
+  SbSurfaceCompliance disc;
+  const double R = p.film.radius;
+  g_assert_cmpint(sb_compliance_disc(&disc, R, 0.75 * p.film.modulus, 0.5, 0.6 * R, NULL), ==,
+                  SB_OK);
+  p.film.modulus = disc.modulus;
+  p.film.compliance = &disc;
+  p.film.pressure_left = p.film.pressure_right = 0.55e6;
+  p.speed_scale = 16.0;
+  p.rest_film = 1e-10;
+  p.film.tolerance = 1e-2;
+  p.resolve = false;
+  SbFilmTransient *t = begin(&p);
+  double gap[SB_TRANSIENT_NODES_MAX], off = 0.0;
+  sb_transient_gap(gap, t, &t->now);
+  for (int i = 0; i < t->nodes; i++) {
+    const int end = t->X[i] < 0.0 ? 0 : t->nodes - 1;
+    if (fabs(t->X[i]) > 1.2) {
+      const double rise = gap[end] - gap[i];
+      off = fmax(off, fabs(t->now.H[end] - t->now.H[i] - rise) / t->now.H[end]);
+    }
+  }
+  g_test_message("X %.3g to %.3g, gap off by %.2g of that at the end", t->X[0], t->X[t->nodes - 1],
+                 off);
+  g_assert_cmpfloat(off, <, 1e-3);
+  sb_film_transient_destroy(t);
+}
+
 // A wall that brings little holds the steady starved film, smooth and rough, and brings it back
 // after a stop and a reversal; one that brings more than the film takes floods it. The error that
 // the film tells holds.
@@ -670,6 +701,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/film-transient/rough-start", test_rough_start);
   g_test_add_func("/film-transient/leave", test_leave);
   g_test_add_func("/film-transient/rough-rest", test_rough_rest);
+  g_test_add_func("/film-transient/rough-gap", test_rough_gap);
   g_test_add_func("/film-transient/starved", test_starved);
   g_test_add_func("/film-transient/refused", test_refused);
   return g_test_run();
