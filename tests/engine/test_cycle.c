@@ -250,6 +250,22 @@ static void test_may_stop(void) {
   g_assert_cmpfloat(stop->force_return_margin_stop, >, stop->force_return_margin_anywhere);
 }
 
+// The force on a stem that never moves is the drive's: the error of friction that could hold much
+// more is none of it.
+static void test_held(void) {
+  const Setting held[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
+                          {SB_P_DRIVE_KIND, SB_MODEL_DRIVE_HAND},
+                          {SB_P_DRIVE_PEAK_FORCE, 1e-3},
+                          {SB_P_MODELS_FILM, SB_FILM_REYNOLDS},
+                          {SB_P_MODELS_ASPERITIES, SB_MODEL_ASPERITIES_COUPLED}};
+  SbRun *run = run_cycle(held, G_N_ELEMENTS(held));
+  const SbSummary *s = sb_run_summary(run);
+  g_assert_cmpint(s->outcome, ==, SB_OUTCOME_NEVER_MOVED);
+  g_test_message("error of the force %.2g, of the load %.2g", s->error_force, s->error_load);
+  g_assert_cmpfloat(s->error_force, <, 1e-9);
+  sb_run_destroy(run);
+}
+
 // A drive that does not overcome the static friction moves nothing, and a ramp holds the stem.
 static void test_drives(void) {
   Setting weak[] = {{SB_P_MODELS_MOTION, SB_MODEL_MOTION_DYNAMIC},
@@ -584,6 +600,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/stuck", test_stuck);
   g_test_add_func("/cycle/may-stop", test_may_stop);
   g_test_add_func("/cycle/dwell-while-loaded", test_dwell_while_loaded);
+  g_test_add_func("/cycle/held", test_held);
   g_test_add_func("/cycle/drives", test_drives);
   g_test_add_func("/cycle/press", test_press);
   g_test_add_func("/cycle/frames", test_frames);

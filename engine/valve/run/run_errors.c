@@ -421,7 +421,9 @@ SbStatus sb_run_check_errors(SbRun *run, SbStatus status, SbReport *report) {
 }
 
 double sb_run_error_friction(const SbRun *run) {
-  const double peak = run->summary.force_peak;
+  // Friction that holds a stem throughout is the push, however large it could become.
+  const bool moves = run->summary.outcome != SB_OUTCOME_NEVER_MOVED;
+  const double peak = moves ? run->summary.force_peak : 0;
   double error = 0;
   for (int seal = 0; seal < SB_SEAL_COUNT; seal++) {
     error += fmax(run->friction_error[seal], run->static_error[seal]);

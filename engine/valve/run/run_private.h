@@ -374,7 +374,8 @@ void sb_run_publish(SbRun *run, size_t count);
 // Stores the stage in the summary, from the frame `index`, unless it was reached before.
 void sb_run_mark_stage(SbRun *run, SbStage stage, const SbFrame *frame, size_t index);
 
-// Returns the error of the cycle's forces by both frictions over the peak force [1]; 0 without one.
+// Returns the error of the cycle's forces by both frictions over the peak force [1]; 0 without one,
+// and of a stem that never moves. After the outcome is known.
 double sb_run_error_friction(const SbRun *run);
 
 // Calls hooks->progress. `fraction` is 0 to 1 of the work before the first frame if frames = 0,
