@@ -250,6 +250,25 @@ static void test_may_stop(void) {
   g_assert_cmpfloat(stop->force_return_margin_stop, >, stop->force_return_margin_anywhere);
 }
 
+// A canister below ambient draws the stem in by itself where friction falls below that pull, over
+// the land's edge: the stem leaves the platen, and the pull's work beyond the friction is lost.
+static void test_drawn_in(void) {
+  const double pull[] = {-0.4e5, -0.6e5, -0.9e5};
+  for (int i = 0; i < 3; i++) {
+    const Setting set[] = {{SB_P_CANISTER_PRESSURE, pull[i]},
+                           {SB_P_FRICTION_SHEAR_STRENGTH, 0.2e6}};
+    SbRun *run = run_cycle(set, G_N_ELEMENTS(set));
+    const SbSummary *s = sb_run_summary(run);
+    const SbEnergy *energy = &s->energy;
+    g_test_message("%.0f Pa: closure %.1e, lost %.3g of %.3g J", pull[i], energy->closure,
+                   energy->seal, energy->external);
+    g_assert_cmpfloat(energy->closure, <, 1e-8);
+    g_assert_cmpint(energy->seal > 0.01 * energy->external, ==, i > 0);
+    g_assert_cmpint(s->outcome, ==, SB_OUTCOME_STUCK);
+    sb_run_destroy(run);
+  }
+}
+
 // The force on a stem that never moves is the drive's: the error of friction that could hold much
 // more is none of it.
 static void test_held(void) {
@@ -600,6 +619,7 @@ int main(int argc, char **argv) {
   g_test_add_func("/cycle/stuck", test_stuck);
   g_test_add_func("/cycle/may-stop", test_may_stop);
   g_test_add_func("/cycle/dwell-while-loaded", test_dwell_while_loaded);
+  g_test_add_func("/cycle/drawn-in", test_drawn_in);
   g_test_add_func("/cycle/held", test_held);
   g_test_add_func("/cycle/drives", test_drives);
   g_test_add_func("/cycle/press", test_press);

@@ -195,6 +195,10 @@ static void slide(Planner *p) {
     } else if (unstable_end) {
       turn = p->s;
     }
+    if (!out && sb_cycle_balance_at(turn, &place) < 0) {
+      // The platen does not pull: the canister draws the stem off it (a pressure below ambient).
+      turn = balance > 0 ? sb_bisect(sb_cycle_balance_at, &place, p->s, turn) : p->s;
+    }
     if (turn == p->s) {
       // At the very edge of stability: step over the hump by the smallest jump.
       p->s = nextafter(p->s, end);
