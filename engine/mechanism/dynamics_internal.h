@@ -235,7 +235,3 @@ void sb_motion_add_energy(double *term, const SbDynamics *s, const Point *p, con
 // where the state is z.
 void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
                          SbDynamicsEnergy *e);
-
-// Returns by how much the numerical steps over h, s->step, open the balance of energies, divided by
-// what they may.
-double sb_motion_step_opens(const SbDynamics *s, double h);

@@ -299,25 +299,6 @@ static double land(SbDynamics *s, double h, const Live *live, int *landing, int 
   return at;
 }
 
-// Makes steps over h from z, s->step. *error receives their error divided by what it may be,
-// local[] that of each unknown. `balance`: by the balance of energies, too: the powers have twice
-// the stem's frequency, and larger errors. Returns false if they have no solution.
-static bool try_step(SbDynamics *s, const double *z, double h, bool balance, double *error,
-                     double *local) {
-  if (!sb_radau_pair(s->step, error, local, &s->system, s->t, z, h,
-                     &s->counters.newton_iterations)) {
-    return false;
-  }
-  if (balance && *error <= 1.0 && !s->held) {
-    *error = fmax(*error, pow(sb_motion_step_opens(s, h), 1.2));
-  }
-  return true;
-}
-
-// Attempts at a step that the balance of energies may shorten: rounding can open it more than a
-// step does.
-enum { BALANCED = 4 };
-
 // Steps with error control. A step that an event ends is repeated so that it ends there: the event
 // is then as accurate as the solution, not as its dense output, and the error of the step is that
 // up to the event (loads may have a kink behind it).
@@ -343,7 +324,8 @@ static SbStatus numerical_path(SbDynamics *s, const Point *p, const Live *live, 
       s->system.noise[0] = 8.0 * speed / damped;
       s->system.noise[1] = 8.0 * noise / damped;
     }
-    bool solved = try_step(s, z, h, attempt < BALANCED, &error, local);
+    bool solved = sb_radau_pair(s->step, &error, local, &s->system, s->t, z, h,
+                                &s->counters.newton_iterations);
     double factor = error > 0.0 ? fmin(4.0, fmax(0.2, 0.85 * pow(error, -1.0 / 6.0))) : 4.0;
     if (!solved || error > 1.0) {
       h *= solved ? fmin(factor, 0.7) : 0.25;

@@ -7,11 +7,6 @@
 #include <float.h>
 #include <math.h>
 
-// A step opens the balance of energies by no more than these shares of what it dissipates and of
-// the largest work so far, times the tolerance: the work of a motion at 1e-8 is then balanced to
-// 2e-7 and some 1e-10 for each step, also where many bounces return most of their energy.
-static const double balance_share = 20.0, balance_floor = 0.01;
-
 // The closed-form motion from a point over tau, which ends in z.
 static void stretch_to(Stretch *over, const SbDynamics *s, const Point *p, double tau,
                        const SbDynamicsState *z) {
@@ -67,10 +62,6 @@ void sb_motion_state_at(const SbDynamics *s, double tau, SbDynamicsState *z) {
   }
 }
 
-static double dissipated(const SbDynamicsEnergy *e) {
-  return e->friction + e->viscous + e->seal + e->stop + e->machine;
-}
-
 void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState *z,
                          SbDynamicsEnergy *e) {
   *e = s->energy;
@@ -100,28 +91,11 @@ void sb_motion_energy_at(const SbDynamics *s, double tau, const SbDynamicsState 
   e->stored = sb_motion_stored_energy(s, s->t + tau, z) - s->stored_start;
   double external = e->drive + e->pressure;
   e->largest = fmax(e->largest, fabs(external));
+  double rest =
+      external - e->friction - e->viscous - e->seal - e->stop - e->machine - e->kinetic - e->stored;
   e->largest_stored = fmax(e->largest_stored, fabs(e->stored));
   const double scale = e->largest > 0.0 ? e->largest : e->largest_stored;
-  e->closure = scale > 0.0 ? fabs(external - dissipated(e) - e->kinetic - e->stored) / scale : 0.0;
-}
-
-double sb_motion_step_opens(const SbDynamics *s, double h) {
-  SbDynamicsState z;
-  SbDynamicsEnergy from, to;
-  sb_motion_energy_at(s, 0.0, &s->at, &from);
-  sb_motion_state_at(s, h, &z);
-  sb_motion_energy_at(s, h, &z, &to);
-  const double lost = dissipated(&to) - dissipated(&from);
-  const double given = to.drive + to.pressure - from.drive - from.pressure;
-  const double open = given - lost - (to.kinetic + to.stored - from.kinetic - from.stored);
-  const double moves = s->mass * fabs(z.v) * (fabs(z.v) + s->speed_size);
-  const double digits = fabs(to.kinetic) + 2.0 * s->kinetic_start + fabs(to.stored) +
-                        2.0 * fabs(s->stored_start) + fabs(to.drive) + fabs(to.pressure);
-  const double rounding =
-      16.0 * DBL_EPSILON * digits + s->mass * s->system.noise[1] * fabs(z.x - s->at.x);
-  return fabs(open) / (s->system.tolerance *
-                           (balance_share * fabs(lost) + balance_floor * (to.largest + moves)) +
-                       rounding);
+  e->closure = scale > 0.0 ? fabs(rest) / scale : 0.0;
 }
 
 // ---- the drive's greatest force ----

@@ -185,39 +185,11 @@ static void test_chatter(void) {
   ASSERT_NEAR(at.position, 3.0 * 1.29e-4 - 0.384 / 3659.0, 5e-6);
 }
 
-// A stem thrown against a stop that gives back 99 % of its speed, hundreds of times: the dampers'
-// powers have twice the frequency of the stem on its stop, and their errors add up.
-static void test_bounces(void) {
-  double force[2] = {-4.0, 2e-3};
-  SbDynamicsModel m = {
-      .mass = 6e-4,
-      .contacts = 1,
-      .contact = {{.static_ratio = 1.3,
-                   .stribeck_speed = 7e-2,
-                   .stribeck_exponent = 1.0,
-                   .stiffness = INFINITY}},
-      .stops = 1,
-      .stop = {{.position = 1e-2, .side = 1, .stiffness = 5.5e6, .restitution = 0.99}},
-      .loads = constant_loads,
-      .user = force,
-      .start_speed = 0.1};
-  SbDynamics s;
-  SbDynamicsSample at;
-  SbDynamicsEnergy energy;
-  start(&s, &m);
-  advance(&s, 1.0, &at, &energy);
-  g_test_message("bounces: %ld steps, %.3g of %.3g J left to the stop, closure %.1e",
-                 s.counters.steps, energy.stop, energy.pressure, energy.closure);
-  g_assert_cmpfloat(energy.stop, >, 0.5 * energy.pressure);
-  g_assert_cmpfloat(energy.closure, <, 2e-7);
-}
-
 int main(int argc, char **argv) {
   g_test_init(&argc, &argv, NULL);
   g_test_add_func("/motion/stribeck/take-off", test_take_off);
   g_test_add_func("/motion/stribeck/end", test_end);
   g_test_add_func("/motion/stribeck/equal", test_equal);
   g_test_add_func("/motion/stribeck/chatter", test_chatter);
-  g_test_add_func("/motion/stribeck/bounces", test_bounces);
   return g_test_run();
 }
