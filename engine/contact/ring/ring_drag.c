@@ -51,18 +51,27 @@ static const double FALL = 0.97, EASY_FALL = 0.985, FALL_TURN = 0.1, FLAT_TURN =
 // found.
 static const double DETACHES = 0.5, DETACHED_LEAST = 0.01;
 
+// Largest force of the wall behind a ring, divided by the drag, at which the drag has released it:
+// its friction at the end of the path is known to about this.
+static const double LOOSE = 0.01;
+
 bool sb_ring_rest_on_wall(SbRing *ring) {
-  const SbRingContact *contact = ring->contact;
+  SbRingContact *contact = ring->contact;
   const SbRingLoad *now = &contact->is.now;
-  SbRingSurface wall = now->bore_slides > 0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
-  double least = INFINITY;
+  const SbRingSurface wall = now->bore_slides > 0 ? SB_RING_WALL_RIGHT : SB_RING_WALL_LEFT;
+  const SbRingSurface behind = now->bore_slides > 0 ? SB_RING_WALL_LEFT : SB_RING_WALL_RIGHT;
+  double least = INFINITY, drag = 0.0, leans = 0.0;
   bool holds = false;
   for (int i = 0; i < contact->count; i++) {
     least = fmin(least, sb_ring_frame_at(contact, i, wall).gap);
-    holds = holds || sb_ring_touch(contact, i, SB_RING_WALL_RIGHT)->held ||
-            sb_ring_touch(contact, i, SB_RING_WALL_LEFT)->held;
+    holds = holds || sb_ring_touch(contact, i, wall)->held;
+    leans += sb_ring_touch(contact, i, behind)->force;
+    drag += fabs(sb_ring_touch(contact, i, SB_RING_BORE)->tangent);
   }
-  const bool moves = isfinite(least) && !holds;
+  const bool moves = isfinite(least) && !holds && leans <= LOOSE * drag;
+  for (int i = 0; i < contact->count && moves; i++) {
+    *sb_ring_touch(contact, i, behind) = (SbRingTouch){0};
+  }
   for (int i = 0; i < ring->mesh->nodes && moves; i++) {
     ring->fem->u[2 * i + 1] += now->bore_slides * least;
   }
@@ -212,9 +221,9 @@ static SbStatus follow(SbRing *ring, double aim, SbReport *report) {
       if (detaches && (length < DETACHED_LEAST || spent)) {
         return end_at_limit(ring, SB_RING_ROLLS, most, limit);
       }
-      // No wall carries the ring: if the drag has reached the friction of the floor, a higher drag
-      // has no state here. The ring is moved through its groove to the wall once, with its shape
-      // unchanged, and the path continues there.
+      // No wall carries the ring: if the drag has reached the friction of the floor and the fluid's
+      // push, a higher drag has no state here. The ring is moved through its groove to the wall
+      // once, with its shape unchanged, and the path continues there.
       if (length < ARC_LEAST && !spent && !crossed && sb_ring_rest_on_wall(ring)) {
         crossed = true;
         length = ARC;

@@ -254,8 +254,8 @@ SbStatus sb_ring_moves_off(SbRing *ring, bool *off, SbReport *report);
 // the fluid last, on its present mesh. Errors as for sb_ring_create().
 SbStatus sb_ring_fit_and_press(SbRing *ring, const SbRingLoad *smooth, SbReport *report);
 
-// Moves a ring that has no contact with a wall to the wall to which the bore drags it. Returns
-// whether it moved the ring.
+// Moves a ring that no wall supports to the wall to which the bore drags it: without contact with a
+// wall, or pressed onto the opposite one by a small part of the drag. Returns whether it moved it.
 bool sb_ring_rest_on_wall(SbRing *ring);
 
 // Changes the load to `target`; first moves the ring to the wall if the fluid pushes it there.
