@@ -55,24 +55,16 @@ static SbStatus settle(SbFilmTransient *t) {
   return status;
 }
 
-// A place in the points of a profile: between point k and the next one.
-typedef struct {
-  size_t k;
-  double share;
-} Place;
-
-static Place find_place(const SbFilm *film, double x) {
+// A quantity of a profile at x [m] between its ends, by straight lines.
+static double read_at(const SbFilm *film, const double *value, double x) {
   const size_t k = sb_interval(film->x, film->points, x);
-  return (Place){k, (x - film->x[k]) / (film->x[k + 1] - film->x[k])};
-}
-
-static double read_at(const double *value, Place at) {
-  return value[at.k] + at.share * (value[at.k + 1] - value[at.k]);
+  return value[k] + (x - film->x[k]) / (film->x[k + 1] - film->x[k]) * (value[k + 1] - value[k]);
 }
 
 // Total pressure, film pressure and gap of a profile. Beyond its ends the pressures are those of
-// the surroundings, and the gap continues as these pressures deform the body: a film that begins
-// at rest keeps the fluid of its first gaps, and any other gap there would be a large pressure.
+// the surroundings, and the gap is that of the body under all these pressures, joined to the
+// profile's: where a film begins at rest its fluid stays in the gaps, and in wrong gaps it would
+// be squeezed.
 static void lay_profile(SbFilmTransient *t, const SbFilm *film) {
   SbTransientState *s = &t->now;
   const SbFilmScale *scale = &t->scale;
@@ -83,10 +75,9 @@ static void lay_profile(SbFilmTransient *t, const SbFilm *film) {
     s->P[i] = s->Q[i] = t->X[i] < 0.0 ? scale->inlet : scale->outlet;
     s->cavity[i] = false;
     if (x >= ends[0] && x <= ends[film->points - 1]) {
-      const Place at = find_place(film, x);
-      const double pressure = read_at(film->pressure, at) - t->problem.film.rupture_pressure;
+      const double pressure = read_at(film, film->pressure, x) - t->problem.film.rupture_pressure;
       s->Q[i] = pressure / scale->pressure;
-      s->P[i] = s->Q[i] - read_at(film->asperity_pressure, at) / scale->pressure;
+      s->P[i] = s->Q[i] - read_at(film, film->asperity_pressure, x) / scale->pressure;
       first = i < first ? i : first;
       last = i;
     }
@@ -98,7 +89,7 @@ static void lay_profile(SbFilmTransient *t, const SbFilm *film) {
     const int from = i < first ? first : i > last ? last : i;
     const double beyond = i < first ? s->H[i] - left : i > last ? s->H[i] - right : 0.0;
     const double x = (scale->middle + t->X[from]) * b;
-    s->H[i] = read_at(film->film, find_place(film, x)) / scale->film + beyond;
+    s->H[i] = read_at(film, film->film, x) / scale->film + beyond;
   }
 }
 

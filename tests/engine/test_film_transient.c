@@ -603,7 +603,7 @@ static void test_rough_gap(void) {
   sb_transient_gap(gap, t, &t->now);
   for (int i = 0; i < t->nodes; i++) {
     const int end = t->X[i] < 0.0 ? 0 : t->nodes - 1;
-    if (fabs(t->X[i]) > 1.2) {
+    if (fabs(t->X[i]) > 1.2) { // outside the contact, which ends at 1
       const double rise = gap[end] - gap[i];
       off = fmax(off, fabs(t->now.H[end] - t->now.H[i] - rise) / t->now.H[end]);
     }

@@ -158,7 +158,8 @@ static bool is_held(const Planner *p) {
 }
 
 // Slides from the present point in the present direction until the stem sticks, stops, or (on the
-// return) the platen leaves it. Forces balance at entry unless a jump is due.
+// return) the platen leaves it; on the in-stroke a stem that leaves the platen jumps. Forces
+// balance at entry unless a jump is due.
 static void slide(Planner *p) {
   const SbModel *model = p->cycle->model;
   double k = model->stiffness;
@@ -196,11 +197,12 @@ static void slide(Planner *p) {
       turn = p->s;
     }
     if (!out && sb_cycle_balance_at(turn, &place) < 0) {
-      // The platen does not pull: the canister draws the stem off it (a pressure below ambient).
+      // The platen cannot pull (sb_cycle_force()): the stem leaves it where the canister's pull, at
+      // a pressure below ambient, equals the friction.
       turn = balance > 0 ? sb_bisect(sb_cycle_balance_at, &place, p->s, turn) : p->s;
     }
     if (turn == p->s) {
-      // At the very edge of stability: step over the hump by the smallest jump.
+      // At the very edge of stability, or of leaving: step over it by the smallest jump.
       p->s = nextafter(p->s, end);
       jump(p, &place, end);
       continue;
